@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "measure/clock.hpp"
 #include "measure/interleave.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace boxstream::bench {
 

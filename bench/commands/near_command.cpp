@@ -8,7 +8,7 @@
 #include "commands/commands.hpp"
 #include "commands/delaunay.hpp"
 #include "inputs/random.hpp"
-#include "papers/thick/near.hpp"
+#include "papers/thick/report_intersections.hpp"
 #include "tables/measuring.hpp"
 
 namespace boxstream::bench {

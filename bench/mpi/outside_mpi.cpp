@@ -4,7 +4,7 @@
 
 #include <mpi.h>
 
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace boxstream::bench {
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
 

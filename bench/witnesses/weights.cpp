@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "witnesses/weights.hpp"
 
-#include "formats/geometry/closed_forms.hpp"
 #include "formats/geometry/convex_hull.hpp"
+#include "formats/geometry/solid.hpp"
 #include "witnesses/witness.hpp"
 
 namespace boxstream::witnesses {

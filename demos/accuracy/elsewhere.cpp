@@ -12,9 +12,9 @@
 #include "formats/scene_model/expand.hpp"
 #include "formats/scene_model/names.hpp"
 #include "measure.hpp"
-#include "measure/clock.hpp"
-#include "run_and_sample.hpp"
-#include "simulation/engine/precision.hpp"
+#include "measure/stopwatch.hpp"
+#include "sampling.hpp"
+#include "simulation/engine/world_recipe.hpp"
 #include "simulation/run/simulation.hpp"
 #include "sweep.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene.hpp"
 

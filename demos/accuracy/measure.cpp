@@ -6,10 +6,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "knob.hpp"
-#include "measure/clock.hpp"
 #include "measure/interleave.hpp"
+#include "measure/stopwatch.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/expand.hpp"
 
 namespace boxstream::accuracy {

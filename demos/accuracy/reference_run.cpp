@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reference_run.hpp"
+#include "sampling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,7 @@
 
 #include "formats/scene_model/expand.hpp"
 #include "formats/scene_model/names.hpp"
-#include "measure/clock.hpp"
-#include "run_and_sample.hpp"
+#include "measure/stopwatch.hpp"
 #include "simulation/run/simulation.hpp"
 #include "usual_knobs.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run_and_sample.hpp"
+#include "sampling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 #include "monitor.hpp"
 #include "simulation/run/simulation.hpp"
 

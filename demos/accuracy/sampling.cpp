@@ -7,7 +7,6 @@
 
 #include "measure.hpp"
 #include "measure/interleave.hpp"
-#include "run_and_sample.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {

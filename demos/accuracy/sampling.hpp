@@ -2,14 +2,36 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "candidates.hpp"
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
+#include "reference.hpp"
+#include "sweep.hpp"
 
-/// The runs of a sweep: what they say of each setting, and what they cost.
 namespace boxstream::accuracy {
+
+/// The failure of a reference that the budget has no time for.
+inline constexpr const char* takes_too_long = "it would take longer than the budget allows";
+
+/// Runs the sequence that settings are compared with: the scene as it is, with steps finer than those of all settings,
+/// iterations that do not limit it, and the solvers that are exact where the scene is small enough for them. `finest`:
+/// substeps of a step of the scene that the finest setting comes to. `needed`: whatever the budget says. A sequence
+/// that gains energy, breaks a check or loses a body is no reference, and `failure` says so. It is of double precision
+/// where there is a source, which is what the scene is made of.
+Reference run_reference(const Request& request, scenes::Scene scene, const std::optional<Source>& source,
+                        std::uint64_t steps, double finest, bool needed,
+                        const std::function<void(const std::string&)>& on_run);
+
+/// Runs a scene for `row.steps` steps, samples it after each, and fills in the series, values, vitals, cost and failure
+/// of `row`. If `trajectory` is given, it is filled in too. False if the request said stop before the end: then `row`
+/// says nothing.
+bool run_and_sample(const Request& request, const scenes::Scene& scene, const Reference& reference, Row& row,
+                    Trajectory* trajectory = nullptr);
+
+// The runs of a sweep: what they say of each setting, and what they cost.
 
 /// Runs are counted and timed for those who wait.
 class Runs {

@@ -7,7 +7,6 @@
 
 #include "candidates.hpp"
 #include "named.hpp"
-#include "reference_run.hpp"
 #include "sampling.hpp"
 #include "simulation/run/simulation.hpp"
 

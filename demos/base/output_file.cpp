@@ -13,7 +13,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "base/bad_file.hpp"
 #include "base/read_file.hpp"
 
 namespace boxstream::files {

@@ -11,8 +11,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "base/bad_file.hpp"
-
 namespace boxstream::files {
 namespace {
 

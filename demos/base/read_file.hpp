@@ -4,11 +4,24 @@
 #include <cstdint>
 #include <fstream>
 #include <istream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace boxstream::files {
+
+/// A file that cannot be read or written. `what()` is "NAME: reason".
+class BadFile : public std::runtime_error {
+ public:
+  BadFile(const std::string& name, const std::string& reason)
+      : std::runtime_error(name + ": " + reason), reason_(reason) {}
+
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
 
 /// A file that is read piece by piece, or standard input for "-". Noted as read.
 class InputFile {

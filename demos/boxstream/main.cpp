@@ -2,8 +2,8 @@
 #include <exception>
 #include <new>
 
-#include "base/bad_file.hpp"
 #include "base/output_file.hpp"
+#include "base/read_file.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/run.hpp"

@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace boxstream::measure {
 namespace {

@@ -19,7 +19,6 @@
 #include "finding.hpp"
 #include "formats/import/geometry.hpp"
 #include "formats/import/import_file.hpp"
-#include "formats/import/readers.hpp"
 #include "loads_as_scene.hpp"
 
 namespace boxstream::fuzz {

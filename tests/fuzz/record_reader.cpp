@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "finding.hpp"
+#include "formats/record/op.hpp"
 #include "formats/record/reader.hpp"
 #include "formats/record/replay.hpp"
 #include "formats/record/same_op.hpp"
-#include "formats/record/text.hpp"
 #include "formats/record/writer.hpp"
 
 namespace boxstream::fuzz {

@@ -9,19 +9,17 @@
 #include <fmt/format.h>
 
 #include "accuracy/usual_knobs.hpp"
-#include "base/nearest_word.hpp"
-#include "boxstream/accuracy/accuracy_page.hpp"
-#include "boxstream/accuracy/accuracy_view.hpp"
+#include "base/words.hpp"
 #include "boxstream/accuracy/accuracy_writers.hpp"
 #include "boxstream/accuracy/closed_form.hpp"
-#include "boxstream/explain/other_precision.hpp"
+#include "boxstream/explain/tried.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/interrupt.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "boxstream/simulate/document_of.hpp"
+#include "boxstream/simulate/json_report.hpp"
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/accuracy/accuracy_page.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

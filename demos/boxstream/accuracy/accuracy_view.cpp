@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/accuracy/accuracy_view.hpp"
+#include "boxstream/accuracy/accuracy_writers.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <map>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "boxstream/shared/report.hpp"
 
 namespace boxstream::tool {

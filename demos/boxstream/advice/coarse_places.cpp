@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/advice/coarse_places.hpp"
+#include "boxstream/advice/coarse_steps.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/tunnelling.hpp"

@@ -12,10 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "boxstream/advice/coarse_places.hpp"
 #include "boxstream/advice/columns.hpp"
-#include "boxstream/advice/landings.hpp"
-#include "boxstream/advice/masses.hpp"
 #include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"

@@ -12,7 +12,6 @@
 
 #include "boxstream/advice/columns.hpp"
 #include "boxstream/advice/hard_families.hpp"
-#include "boxstream/advice/masses.hpp"
 #include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
 #include "formats/scene_model/names.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/advice/landings.hpp"
+#include "boxstream/advice/coarse_steps.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/tunnelling.hpp"

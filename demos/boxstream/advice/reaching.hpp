@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <LinearMath/btVector3.h>
 #include <cstddef>
 #include <vector>
-
-#include <LinearMath/btVector3.h>
 
 #include "simulation/effects/effect.hpp"
 
 namespace boxstream::tool {
+
+/// Of each body, in kg; 0 of what is not dynamic. Throws SceneError for a shape that cannot be built.
+std::vector<double> masses_of(const effects::Subject& subject);
 
 /// Where the bodies of a scene are at the start, and what they may come to.
 class Reaching {

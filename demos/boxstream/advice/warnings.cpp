@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/expand.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "simulation/effects/unfit.hpp"

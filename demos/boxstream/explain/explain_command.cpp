@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/output_file.hpp"
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "boxstream/advice/warnings.hpp"
 #include "boxstream/explain/tried.hpp"
 #include "boxstream/shared/bad_input.hpp"

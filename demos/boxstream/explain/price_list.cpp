@@ -16,7 +16,6 @@
 #include "boxstream/shared/scene_files.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/repeated.hpp"
-#include "measure/clock.hpp"
 #include "measure/interleave.hpp"
 #include "measure/stopwatch.hpp"
 #include "simulation/effects/effects.hpp"

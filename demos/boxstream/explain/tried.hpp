@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include "accuracy/elsewhere.hpp"
 
 namespace boxstream::tool {
+
+/// Runs what this program cannot in the one for worlds in double precision; null: it is not installed.
+accuracy::Elsewhere other_precision();
 
 /// Results of running a scene with the settings that are worth trying on it.
 struct Tried {

@@ -8,7 +8,7 @@
 #include "accuracy/knob.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
-#include "boxstream/simulate/document_of.hpp"
+#include "boxstream/simulate/json_report.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -9,7 +9,7 @@
 #include "boxstream/mesh/surface.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/simulate/table.hpp"
+#include "boxstream/simulate/reports.hpp"
 #include "mesh/self_intersection.hpp"
 
 namespace boxstream::tool {

@@ -10,11 +10,18 @@
 #include "boxstream/mesh/surface.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"
-#include "mesh/hot_colour.hpp"
 #include "mesh/three_phases.hpp"
 
 namespace boxstream::tool {
 namespace {
+
+/// The hot colour map: from black at 0 over red and yellow to white at 1.
+picture::Colour hot_colour(double x) {
+  const auto channel = [&](double begin, double end) {
+    return static_cast<float>(std::clamp((x - begin) / (end - begin), 0.0, 1.0));
+  };
+  return {channel(0, 0.375), channel(0.375, 0.75), channel(0.75, 1)};
+}
 
 struct MeshDistanceOptions {
   std::string a, b;
@@ -48,8 +55,8 @@ Distances distances(const TriangleMesh& from, const TriangleMesh& to) {
 PaintedMesh painted(const TriangleMesh& mesh, const Distances& d, const std::string& other) {
   PaintedMesh result{
       mesh, {}, {"distance from " + other + ", in the files' unit", "0", fmt::format("{:.3g}", d.largest()), {}}};
-  for (int i = 0; i <= 8; ++i) result.bar.colours.push_back(mesh::hot_colour(i / 8.0));
-  for (const double x : d.of_vertex) result.colours.push_back(mesh::hot_colour(d.largest() > 0 ? x / d.largest() : 0));
+  for (int i = 0; i <= 8; ++i) result.bar.colours.push_back(hot_colour(i / 8.0));
+  for (const double x : d.of_vertex) result.colours.push_back(hot_colour(d.largest() > 0 ? x / d.largest() : 0));
   return result;
 }
 

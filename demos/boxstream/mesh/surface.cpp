@@ -2,7 +2,7 @@
 #include "boxstream/mesh/surface.hpp"
 
 #include "boxstream/shared/print.hpp"
-#include "formats/import/surface_note.hpp"
+#include "formats/import/mesh_reader.hpp"
 
 namespace boxstream::tool {
 

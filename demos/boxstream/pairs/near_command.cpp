@@ -18,7 +18,7 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "inputs/traffic.hpp"
-#include "papers/thick/near.hpp"
+#include "papers/thick/report_intersections.hpp"
 #include "pictures/drawing/neighbour_map.hpp"
 
 namespace boxstream::tool {

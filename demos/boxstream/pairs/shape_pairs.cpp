@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "boxstream/shared/print.hpp"
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_parts.hpp"

@@ -8,10 +8,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/table.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -14,7 +14,6 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/shared/scene_files.hpp"
-#include "boxstream/simulate/table.hpp"
 #include "pictures/drawing/poster.hpp"
 #include "pictures/drawing/render.hpp"
 #include "pictures/drawing/set_dressing.hpp"

@@ -7,7 +7,7 @@
 
 #include "formats/record/player.hpp"
 #include "formats/scene_model/values.hpp"
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 #include "simulation/engine/broadphases.hpp"
 
 namespace boxstream::tool {

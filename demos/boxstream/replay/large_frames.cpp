@@ -7,10 +7,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 #include "boxstream/shared/bad_input.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
-#include "boxstream/simulate/table.hpp"
 #include "formats/aabbs/frame_boxes.hpp"
 #include "formats/aabbs/reader.hpp"
 

@@ -12,9 +12,9 @@
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/output_files.hpp"
 #include "boxstream/shared/print.hpp"
+#include "formats/record/op.hpp"
 #include "formats/record/recorder.hpp"
 #include "formats/record/replay.hpp"
-#include "formats/record/text.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "simulation/engine/broadphases.hpp"
 

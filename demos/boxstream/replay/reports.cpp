@@ -6,11 +6,11 @@
 
 #include <algorithm>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/table.hpp"
-#include "formats/record/text.hpp"
+#include "formats/record/op.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -13,10 +13,9 @@
 #include <system_error>
 #include <vector>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
-#include "boxstream/shared/main_help.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/output_file.hpp"
+#include "boxstream/shared/bad_input.hpp"
 #include "pictures/drawing/poster.hpp"
 
 namespace boxstream::tool {
@@ -28,6 +29,10 @@ class OutputFiles {
 };
 
 /// None for an empty path. Throws BadInput for a file that is no picture.
-std::optional<picture::PictureFormat> checked_format(const std::string& picture);
+inline std::optional<picture::PictureFormat> checked_format(const std::string& picture) {
+  const auto format = picture::picture_format(picture);
+  if (!picture.empty() && !format) throw BadInput(picture + ": a picture is a .png or a .svg file");
+  return format;
+}
 
 }  // namespace boxstream::tool

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -106,6 +106,12 @@ void StatusLine::say(const std::string& text) {
   fmt::print(stderr, "\r\x1b[K{}", files::printable(text));
   std::fflush(stderr);
   shown_ = Clock::now();
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, 1, ' ');
+  return digits;
 }
 
 }  // namespace boxstream::tool

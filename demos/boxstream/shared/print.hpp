@@ -30,6 +30,9 @@ void remark(const std::string& text) noexcept;
 /// remark() of what went wrong: its beginning is red on a terminal that shows colours.
 void complain(const std::string& text) noexcept;
 
+/// "12 345 678".
+std::string grouped(std::uint64_t number);
+
 /// How far a run is, on standard error. On a terminal one line that is written over while it goes, and gone when it
 /// ends; elsewhere a line for each tenth of the steps, if they take longer than two seconds.
 class StatusLine {

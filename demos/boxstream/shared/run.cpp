@@ -6,7 +6,6 @@
 #include <boxstream/detector.hpp>
 
 #include "boxstream/shared/command.hpp"
-#include "boxstream/shared/main_help.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 

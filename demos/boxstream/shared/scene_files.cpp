@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "boxstream/simulate/table.hpp"
+#include "boxstream/shared/print.hpp"
 
 namespace boxstream::tool {
 namespace {

@@ -2,11 +2,14 @@
 #include "boxstream/simulate/json_report.hpp"
 
 #include <fmt/format.h>
-
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/reports.hpp"
+#include "boxstream/simulate/simulate.hpp"
 #include "boxstream/simulate/step_files.hpp"
 #include "boxstream/simulate/summary.hpp"
 #include "formats/scene_model/names.hpp"
@@ -108,6 +111,12 @@ std::string result_json(const scenes::Scene& scene, const RunResult& result) {
   document["worlds"] = Json::array();
   for (const WorldRun& world : result.worlds) document["worlds"].push_back(world_json(world));
   return json_dump(document, 1) + "\n";
+}
+
+nlohmann::json document_of(const scenes::Scene& scene, const std::string& broadphase) {
+  StatusLine quiet;
+  const RunResult result = run(scene, broadphase, std::nullopt, static_cast<std::uint64_t>(scene.time.steps), quiet);
+  return nlohmann::json::parse(result_json(scene, result));
 }
 
 }  // namespace boxstream::tool

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/simulate/poster_report.hpp"
+#include "boxstream/simulate/reports.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
+#include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "boxstream/simulate/drawables.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/table.hpp"
 #include "pictures/drawing/render.hpp"
 #include "pictures/drawing/set_dressing.hpp"
 

@@ -13,7 +13,6 @@
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
-#include "boxstream/simulate/table.hpp"
 #include "pictures/viewer/film.hpp"
 #include "pictures/viewer/page.hpp"
 #include "pictures/viewer/recording.hpp"

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/simulate/step_files.hpp"
-#include "boxstream/simulate/table.hpp"
 
 namespace boxstream::tool {
 namespace {

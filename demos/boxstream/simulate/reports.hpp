@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "boxstream/simulate/simulate.hpp"
+#include "formats/scene_model/scene.hpp"
+#include "pictures/drawing/poster.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::tool {
+
+/// The result as a page: each world as it is now under the same camera, the main numbers, and times and
+/// pairs over the steps.
+picture::Poster result_poster(const scenes::Scene& scene, const RunResult& result);
+
+/// The result for reading: a small table, ending in a newline.
+std::string result_table(const scenes::Scene& scene, const RunResult& result);
 
 /// A check in words: "max_penetration < 0.01, always".
 std::string check_text(const scenes::Check& check);

@@ -7,9 +7,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "base/nearest_word.hpp"
-#include "base/printable.hpp"
 #include "base/read_file.hpp"
+#include "base/words.hpp"
 #include "boxstream/advice/warnings.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -18,19 +17,16 @@
 #include "boxstream/shared/run.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "boxstream/simulate/json_report.hpp"
-#include "boxstream/simulate/options.hpp"
-#include "boxstream/simulate/poster_report.hpp"
 #include "boxstream/simulate/recordings.hpp"
 #include "boxstream/simulate/reports.hpp"
 #include "boxstream/simulate/simulate.hpp"
 #include "boxstream/simulate/step_files.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/table.hpp"
 #include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "pictures/drawing/poster.hpp"
-#include "simulation/engine/precision.hpp"
 #include "simulation/engine/row_solver.hpp"
+#include "simulation/engine/world_recipe.hpp"
 
 namespace boxstream::tool {
 namespace {

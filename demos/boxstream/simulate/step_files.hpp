@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/output_file.hpp"
-#include "boxstream/simulate/monitor.hpp"
 #include "boxstream/simulate/simulate.hpp"
 #include "formats/aabbs/writer.hpp"
 #include "formats/record/writer.hpp"

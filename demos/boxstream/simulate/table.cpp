@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "boxstream/simulate/table.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 #include <utility>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/simulate/reports.hpp"
 #include "boxstream/simulate/summary.hpp"
 
@@ -108,12 +108,6 @@ void print_pairs(std::string& out, const RunResult& result) {
 }
 
 }  // namespace
-
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, 1, ' ');
-  return digits;
-}
 
 std::string result_table(const scenes::Scene& scene, const RunResult& result) {
   std::string out;

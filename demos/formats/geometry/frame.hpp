@@ -8,6 +8,7 @@
 namespace boxstream::geometry {
 
 using scenes::Quat;
+using scenes::times;
 using scenes::Vec3;
 
 inline Vec3 plus(const Vec3& a, const Vec3& b) {
@@ -15,9 +16,6 @@ inline Vec3 plus(const Vec3& a, const Vec3& b) {
 }
 inline Vec3 minus(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Vec3 times(const Vec3& v, double factor) {
-  return {v[0] * factor, v[1] * factor, v[2] * factor};
 }
 inline double dot(const Vec3& a, const Vec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

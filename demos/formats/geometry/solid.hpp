@@ -28,4 +28,16 @@ Solid sum(const std::vector<Solid>& solids);
 /// Whether every edge belongs to as many triangles in one direction as in the other.
 bool is_closed(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
+// Solids that have formulas. All are centred on the origin as scenes have them, round ones along y.
+
+Solid box(const Vec3& half_extents);
+Solid ball(double radius);
+Solid cylinder(double radius, double height);
+
+/// `height` is between the centres of the end spheres.
+Solid capsule(double radius, double height);
+
+/// Halfway between base and apex is the origin; a quarter of the height above the base is the centre of mass.
+Solid cone(double radius, double height);
+
 }  // namespace boxstream::geometry

@@ -9,7 +9,7 @@
 #include <BulletWorldImporter/btBulletWorldImporter.h>
 
 #include "formats/import/bullet_parts.hpp"
-#include "formats/import/readers.hpp"
+#include "formats/import/import_file.hpp"
 
 namespace boxstream::imports {
 namespace {

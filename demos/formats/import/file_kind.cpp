@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
-#include "base/printable.hpp"
 #include "base/read_file.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "formats/geometry/closed_forms.hpp"
 #include "formats/geometry/convex_hull.hpp"
 #include "formats/geometry/frame.hpp"
 #include "formats/geometry/principal.hpp"

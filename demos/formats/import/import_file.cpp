@@ -10,7 +10,6 @@
 #include "formats/import/geometry.hpp"
 #include "formats/import/guarded.hpp"
 #include "formats/import/mesh.hpp"
-#include "formats/import/readers.hpp"
 
 namespace boxstream::imports {
 namespace {

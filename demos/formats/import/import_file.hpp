@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/import/convex_parts.hpp"
+#include "formats/import/fragment.hpp"
 #include "formats/scene_model/joints.hpp"
 #include "formats/scene_model/values.hpp"
 
@@ -36,5 +37,14 @@ bool is_importable(const std::string& path);
 ///
 /// Throws scenes::SceneError "PATH: reason" for what cannot be read or carried over.
 std::string import_file(const std::string& path, const ImportOptions& options);
+
+// The reader of each kind of file. The first two run in a child process (guarded.hpp) and throw any std::exception
+// with the reason; a kind whose library was not there at build time has one that says so.
+
+void read_urdf(const std::string& path, const ImportOptions& options, Fragment& out);
+void read_bullet(const std::string& path, Fragment& out);
+
+/// The only one that is called outside: it guards the reading itself, and what it throws names the file.
+void add_mesh_body(const std::string& path, const ImportOptions& options, Fragment& out);
 
 }  // namespace boxstream::imports

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/import/raw_mesh.hpp"
+#include "formats/import/mesh_files/mesh_files.hpp"
 #include "formats/scene_model/values.hpp"
 
 namespace boxstream::imports {

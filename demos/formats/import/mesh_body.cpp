@@ -4,8 +4,8 @@
 
 #include "formats/import/file_kind.hpp"
 #include "formats/import/geometry.hpp"
-#include "formats/import/readers.hpp"
-#include "formats/import/surface_note.hpp"
+#include "formats/import/import_file.hpp"
+#include "formats/import/mesh_reader.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::imports {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <stdexcept>
 
+#include "formats/import/import_file.hpp"
 #include "formats/import/mesh_reader.hpp"
-#include "formats/import/readers.hpp"
 
 // In place of readers whose library was not found.
 namespace boxstream::imports {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/import/surface_note.hpp"
+#include "formats/import/mesh_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

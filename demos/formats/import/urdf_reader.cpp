@@ -11,7 +11,7 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include "formats/import/readers.hpp"
+#include "formats/import/import_file.hpp"
 #include "formats/import/touching.hpp"
 #include "formats/import/urdf_collision.hpp"
 #include "formats/import/urdf_files.hpp"

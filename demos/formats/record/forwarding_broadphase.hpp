@@ -2,9 +2,18 @@
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
-
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <memory>
 #include <utility>
+
+namespace boxstream::scenes {
+
+/// For btOverlappingPairCache::processAllOverlappingPairs: ends every pair, algorithms and ghosts' lists included.
+struct EndAllPairs final : btOverlapCallback {
+  bool processOverlap(btBroadphasePair&) override { return true; }
+};
+
+}  // namespace boxstream::scenes
 
 namespace boxstream::record {
 

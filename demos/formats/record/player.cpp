@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "formats/record/end_all_pairs.hpp"
+#include "formats/record/forwarding_broadphase.hpp"
 
 namespace boxstream::record {
 namespace {

@@ -7,8 +7,8 @@
 #include <chrono>
 
 #include "formats/record/expected_pairs.hpp"
-#include "formats/record/text.hpp"
-#include "measure/clock.hpp"
+#include "formats/record/op.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace boxstream::record {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_model/scene_error.hpp"
 

@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/bad_file.hpp"
-#include "base/printable.hpp"
 #include "base/read_file.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::scenes {

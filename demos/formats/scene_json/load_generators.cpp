@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/scene_json/load_import.hpp"
+#include "formats/scene_json/load_parts.hpp"
 
 namespace boxstream::scenes {
 namespace {

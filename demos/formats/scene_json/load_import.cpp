@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/scene_json/load_import.hpp"
+#include "formats/scene_json/load_parts.hpp"
 
 #include <stdexcept>
 
@@ -8,7 +8,6 @@
 #include "formats/import/import_file.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_json/json_text.hpp"
-#include "formats/scene_json/reference.hpp"
 #include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::scenes {

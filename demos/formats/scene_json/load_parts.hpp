@@ -9,6 +9,19 @@
 #include "formats/scene_json/json_node.hpp"
 #include "formats/scene_model/scene.hpp"
 
+/// What scenes name: looked up beside the scene, and in its folder or below it, wherever `..`, absolute names and
+/// symbolic links lead. Scenes of others may name any file of the machine.
+namespace boxstream::scenes {
+
+/// Of the scene that the node is in.
+std::string folder_of(const Node& node);
+
+/// The file, or the folder, that is there. Throw SceneError.
+std::string file_beside(const Node& file);
+std::string folder_beside(const Node& folder);
+
+}  // namespace boxstream::scenes
+
 /// The parts of the loader; each fills one block of the scene and throws SceneError.
 namespace boxstream::scenes {
 
@@ -92,5 +105,20 @@ void load_effects(const Node& node, Scene& scene);
 void load_checks(const Node& node, Scene& scene);
 void load_outputs(const Node& node, Scene& scene);
 void load_expect(const Node& node, Scene& scene);
+
+}  // namespace boxstream::scenes
+
+/// Reading files of other programs that scenes refer to. All throw SceneError.
+namespace boxstream::scenes {
+
+/// Whether it is named like a mesh of another program, rather than a mesh in JSON.
+bool is_foreign_mesh(const Node& file);
+
+MeshShape import_mesh(Fields& fields, const Node& file);
+HullShape import_hull(Fields& fields, const Node& file);
+/// Its convex parts become shapes of the scene, without names.
+CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene);
+
+void read_import(Fields& fields, const Names& names, ImportGenerator& generator);
 
 }  // namespace boxstream::scenes

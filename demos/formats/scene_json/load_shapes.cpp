@@ -3,23 +3,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/geometry/frame.hpp"
 #include "formats/scene_json/json_text.hpp"
-#include "formats/scene_json/load_import.hpp"
-#include "formats/scene_json/reference.hpp"
+#include "formats/scene_json/load_parts.hpp"
 #include "formats/scene_model/random.hpp"
 
 namespace boxstream::scenes {
 namespace {
 
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using geometry::cross;
+using geometry::dot;
+using geometry::minus;
 
 /// True when no tetrahedron of some of the points has a volume to speak of.
 bool is_flat(const std::vector<Vec3>& points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 
 namespace boxstream::scenes {
 

@@ -7,7 +7,7 @@
 
 #include "inputs/random.hpp"
 #include "papers/experiments/rows.hpp"
-#include "papers/thick/near.hpp"
+#include "papers/thick/report_intersections.hpp"
 
 namespace boxstream::papers {
 

@@ -3,8 +3,8 @@
 
 #include "papers/experiments/structures.hpp"
 #include "papers/structures/binary_structure.hpp"
-#include "papers/structures/kd_boxes.hpp"
 #include "papers/structures/kd_builder.hpp"
+#include "papers/structures/kd_tree.hpp"
 #include "papers/structures/worst_case_structure.hpp"
 
 namespace boxstream::papers {

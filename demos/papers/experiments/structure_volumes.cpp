@@ -10,7 +10,6 @@
 #include "papers/volumes/oriented_box.hpp"
 #include "papers/volumes/query.hpp"
 #include "papers/volumes/sphere.hpp"
-#include "papers/volumes/traverse.hpp"
 
 namespace boxstream::papers {
 

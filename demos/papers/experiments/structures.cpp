@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "papers/structures/kd_boxes.hpp"
+#include "papers/structures/kd_tree.hpp"
 #include "papers/structures/octree.hpp"
 
 namespace boxstream::papers {

@@ -13,8 +13,8 @@
 #include "papers/experiments/rows.hpp"
 #include "papers/experiments/volume_kinds.hpp"
 #include "papers/volumes/builders.hpp"
+#include "papers/volumes/query.hpp"
 #include "papers/volumes/tightness.hpp"
-#include "papers/volumes/traverse.hpp"
 
 namespace boxstream::papers {
 

@@ -13,8 +13,8 @@
 #include "papers/volumes/builders.hpp"
 #include "papers/volumes/front.hpp"
 #include "papers/volumes/oriented_box.hpp"
+#include "papers/volumes/query.hpp"
 #include "papers/volumes/sphere.hpp"
-#include "papers/volumes/traverse.hpp"
 
 namespace boxstream::papers {
 

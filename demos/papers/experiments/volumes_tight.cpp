@@ -11,9 +11,8 @@
 #include "papers/experiments/rows.hpp"
 #include "papers/experiments/volume_kinds.hpp"
 #include "papers/volumes/builders.hpp"
-#include "papers/volumes/fields.hpp"
+#include "papers/volumes/objects.hpp"
 #include "papers/volumes/tightness.hpp"
-#include "papers/volumes/triangle_distance.hpp"
 
 namespace boxstream::papers {
 

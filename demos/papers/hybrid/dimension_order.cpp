@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "papers/hybrid/access.hpp"
+#include "papers/hybrid/box.hpp"
 #include "papers/hybrid/order.hpp"
 #include "papers/hybrid/stream_node.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "inputs/random.hpp"
-#include "papers/hybrid/approx_median.hpp"
+#include "papers/hybrid/stream_node.hpp"
 
 namespace boxstream::papers {
 

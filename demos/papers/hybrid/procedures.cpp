@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "papers/hybrid/access.hpp"
+#include "papers/hybrid/box.hpp"
 #include "papers/hybrid/complete_case.hpp"
 #include "papers/hybrid/order.hpp"
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "papers/hybrid/access.hpp"
 #include "papers/hybrid/box.hpp"
 #include "papers/hybrid/hybrid_search.hpp"
 #include "papers/hybrid/problem.hpp"

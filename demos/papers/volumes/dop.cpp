@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "papers/volumes/axis_box.hpp"
-#include "papers/volumes/point.hpp"
+#include "papers/volumes/volume.hpp"
 
 namespace boxstream::papers::volumes {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "papers/volumes/axis_box.hpp"
-#include "papers/volumes/principal_axes.hpp"
+#include "papers/volumes/splits.hpp"
 
 namespace boxstream::papers::volumes {
 

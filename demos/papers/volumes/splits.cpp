@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "papers/volumes/splits.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
 
 #include "papers/volumes/axis_box.hpp"
-#include "papers/volumes/principal_axes.hpp"
 
 namespace boxstream::papers::volumes {
 
@@ -92,6 +92,15 @@ std::size_t split_across_principal_axis(const Atoms& atoms, Span<std::uint32_t> 
   const auto middle = std::partition(objects.begin(), objects.end(), [&](std::uint32_t o) { return along(o) < 0; });
   if (middle == objects.begin() || middle == objects.end()) return halves(objects, along);
   return static_cast<std::size_t>(middle - objects.begin());
+}
+
+PrincipalAxes principal_axes(Points points) {
+  Point sum = Point::Zero();
+  for (const Point& p : points) sum += p;
+  const Point barycentre = sum / static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Point& p : points) covariance += (p - barycentre) * (p - barycentre).transpose();
+  return {barycentre, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors()};
 }
 
 }  // namespace boxstream::papers::volumes

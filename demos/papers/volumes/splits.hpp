@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "papers/volumes/top_down.hpp"
+#include <Eigen/Core>
+
+#include "papers/volumes/builders.hpp"
+#include "papers/volumes/volume.hpp"
 
 namespace boxstream::papers::volumes {
+
+struct PrincipalAxes {
+  Point barycentre;
+  Eigen::Matrix3d axes;  ///< columns, orthonormal within rounding, by rising variance of the points along them
+};
+
+/// Of the covariance matrix of at least one point. Points that are all the same get some axes.
+PrincipalAxes principal_axes(Points points);
 
 /// Two halves, along the longest side of the box of all centres.
 std::size_t split_at_median(const Atoms& atoms, Span<std::uint32_t> objects);

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <boxstream/aabb.hpp>
+#include <boxstream/span.hpp>
 #include <concepts>
+#include <limits>
 #include <string>
 
-#include <boxstream/aabb.hpp>
-
-#include "papers/volumes/point.hpp"
-
 namespace boxstream::papers::volumes {
+
+/// Objects are given in float; all that is derived from them is double, which leaves room for cubes of any float.
+using Point = Eigen::Vector3d;
+using Points = Span<const Point>;
+
+/// More than any sum of products of three terms here is off by rounding, as a part of the terms' magnitudes. Volumes
+/// are made larger by it, and called disjoint only where they are so by more than it: rounding never loses a pair.
+inline constexpr double slack = 16 * std::numeric_limits<double>::epsilon();
 
 /// A bounding volume: convex, and not smaller than what it was made around, whatever the rounding.
 /// - around(points), around(volumes): encloses all of them; at least one. The second is for hierarchies whose objects

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bounds.hpp"
+#include "set_dressing.hpp"
 
 namespace boxstream::picture {
 namespace {

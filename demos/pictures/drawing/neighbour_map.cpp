@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "page.hpp"
+#include "canvas.hpp"
 
 namespace boxstream::picture {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "base/output_file.hpp"
-#include "page.hpp"
+#include "canvas.hpp"
 
 namespace boxstream::picture {
 

@@ -10,7 +10,6 @@
 #include "canvas.hpp"
 #include "chart.hpp"
 #include "colour_bar.hpp"
-#include "page.hpp"
 #include "png_file.hpp"
 
 namespace boxstream::picture {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "drawable.hpp"
-#include "image.hpp"
+#include "png_file.hpp"
 
 namespace boxstream::picture {
 

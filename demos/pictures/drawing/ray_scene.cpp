@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "bounds.hpp"
 #include "pictures/solids/surface.hpp"
+#include "set_dressing.hpp"
 
 namespace boxstream::picture {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "camera.hpp"
 #include "drawable.hpp"
-#include "image.hpp"
+#include "png_file.hpp"
 
 namespace boxstream::picture {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "page.hpp"
+#include "canvas.hpp"
 
 namespace boxstream::picture {
 

@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "pictures/solids/surface.hpp"
-#include "pictures/viewer/film_record.hpp"
+#include "pictures/viewer/film.hpp"
 #include "pictures/viewer/glb_file.hpp"
 #include "simulation/engine/drawable.hpp"
 

@@ -9,7 +9,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "measure/interleave.hpp"
-#include "pictures/viewer/crowd.hpp"
+#include "pictures/viewer/snapshot.hpp"
 #include "simulation/engine/convert.hpp"
 
 namespace boxstream::view {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pictures/viewer/crowd.hpp"
+#include "pictures/viewer/snapshot.hpp"
 #include "pictures/viewer/text.hpp"
 
 namespace boxstream::view {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "simulation/effects/effects.hpp"
 

@@ -12,7 +12,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/effects/walker.hpp"
 #include "simulation/engine/bullet_shapes.hpp"

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/broadphases.hpp"
 
-#include <algorithm>
-
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/BroadphaseCollision/btSimpleBroadphase.h>
+#include <algorithm>
 #include <boxstream/bullet.hpp>
 
-#include "base/nearest_word.hpp"
+#include "base/words.hpp"
 #include "formats/scene_model/names.hpp"
 #include "simulation/engine/convert.hpp"
+
+#ifdef BOXSTREAM_SCENES_HAVE_TBB
+#include <boxstream/tbb.hpp>
+#else
+#include <stdexcept>
+#endif
 
 namespace boxstream::scenes {
 namespace {
@@ -50,6 +55,14 @@ std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, 
     return std::make_unique<Sap>(vector(bounds.min), vector(bounds.max), static_cast<unsigned>(max_objects) + 1);
   if (name == "simple") return std::make_unique<btSimpleBroadphase>(static_cast<int>(max_objects));
   throw UnknownBroadphase(unknown_word("broad-phase", name, broadphase_names()));
+}
+
+std::unique_ptr<Executor> make_executor(int threads) {
+#ifdef BOXSTREAM_SCENES_HAVE_TBB
+  return std::make_unique<TbbExecutor>(threads);
+#else
+  throw std::runtime_error("a search on " + std::to_string(threads) + " threads takes a build with oneTBB");
+#endif
 }
 
 }  // namespace boxstream::scenes

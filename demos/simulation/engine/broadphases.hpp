@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <boxstream/executor.hpp>
 #include <memory>
 #include <stdexcept>
 #include <string>
-
-#include <boxstream/executor.hpp>
 
 class btBroadphaseInterface;
 
@@ -24,5 +23,9 @@ class UnknownBroadphase : public std::invalid_argument {
 /// (the same by the paper's tree), and must outlive them; null: one thread. Throws UnknownBroadphase.
 std::unique_ptr<btBroadphaseInterface> make_broadphase(const std::string& name, const Bounds& bounds,
                                                        std::size_t max_objects, Executor* executor = nullptr);
+
+/// Runs parallel work on that many threads, the calling one included. Throws std::runtime_error if this build has no
+/// oneTBB.
+std::unique_ptr<Executor> make_executor(int threads);
 
 }  // namespace boxstream::scenes

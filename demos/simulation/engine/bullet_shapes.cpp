@@ -6,7 +6,7 @@
 #include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <btBulletCollisionCommon.h>
 
-#include "formats/geometry/closed_forms.hpp"
+#include "formats/geometry/solid.hpp"
 #include "simulation/engine/cone.hpp"
 #include "simulation/engine/contacts/hull_shape.hpp"
 #include "simulation/engine/convert.hpp"

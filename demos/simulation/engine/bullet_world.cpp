@@ -5,8 +5,8 @@
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
-#include "formats/record/end_all_pairs.hpp"
-#include "simulation/engine/multibody_world.hpp"
+#include "formats/record/forwarding_broadphase.hpp"
+#include "simulation/engine/multibodies.hpp"
 #include "simulation/engine/staged_world.hpp"
 
 namespace boxstream::scenes {

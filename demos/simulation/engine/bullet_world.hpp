@@ -10,8 +10,8 @@
 
 #include "simulation/engine/contacts/sliding_contacts.hpp"
 #include "simulation/engine/contacts/unit_contacts.hpp"
-#include "simulation/engine/motion_hooks.hpp"
 #include "simulation/engine/row_solver.hpp"
+#include "simulation/engine/staged_world.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
 class btSoftRigidDynamicsWorld;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/engine/cone.hpp"
 
-#include "formats/geometry/closed_forms.hpp"
+#include "formats/geometry/solid.hpp"
 #include "simulation/engine/convert.hpp"
 
 namespace boxstream::scenes {

@@ -10,9 +10,8 @@
 #include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
 #include "simulation/engine/convert.hpp"
-#include "simulation/engine/joint_limit.hpp"
+#include "simulation/engine/link_joint.hpp"
 #include "simulation/engine/mass.hpp"
-#include "simulation/engine/multibody_world.hpp"
 
 namespace boxstream::scenes {
 namespace {

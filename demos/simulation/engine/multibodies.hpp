@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <functional>
+#include <memory>
+#include <vector>
 
 #include "simulation/engine/joint_trees.hpp"
 #include "simulation/engine/link_joint.hpp"
 #include "simulation/engine/midpoint.hpp"
+
+namespace boxstream::scenes {
+
+/// Bullet's world of multibodies, with a place between its own accelerations and its solver.
+class MultibodyWorld : public btMultiBodyDynamicsWorld {
+ public:
+  using btMultiBodyDynamicsWorld::btMultiBodyDynamicsWorld;
+
+  void solveExternalForces(btContactSolverInfo& info) override {
+    btMultiBodyDynamicsWorld::solveExternalForces(info);
+    if (after_forces) after_forces();
+  }
+
+  std::function<void()> after_forces;  ///< velocities have forces in them, and nothing of the solver yet
+};
+
+}  // namespace boxstream::scenes
 
 class btMultiBodyConstraint;
 class btMultiBodyJointMotor;

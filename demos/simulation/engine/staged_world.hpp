@@ -4,16 +4,26 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
-
 #include <cstdint>
 #include <functional>
 #include <type_traits>
 #include <vector>
 
-#include "simulation/engine/motion_hooks.hpp"
 #include "simulation/engine/world_recipe.hpp"
 
+class btRigidBody;
+
 namespace boxstream::scenes {
+
+/// Called in each step with its length, in seconds. Each may be null, and must not throw.
+struct MotionHooks {
+  std::function<void(double)> before_solver;  ///< forces and damping are in, contacts are found
+  std::function<void(double)> before_motion;  ///< the solver is done and bodies have not moved yet
+  std::function<void(double)> after_motion;
+  /// What follows the energy of bodies: something but gravity, and a force on it, is about to change the motion of this
+  /// one. May be called for a body that then is not changed, and more than once.
+  std::function<void(const btRigidBody&)> acting_on;
+};
 
 /// Bullet stops a swept body where it hits, in the middle of a step, and leaves it the velocity that forces gave it for
 /// the whole of it: energy that no fall paid for. Here forces act on such a body only for as long as it moved.

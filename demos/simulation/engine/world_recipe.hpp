@@ -2,11 +2,15 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <LinearMath/btScalar.h>
 #include <LinearMath/btVector3.h>
 
 #include "formats/scene_model/settings.hpp"
 
 namespace boxstream::scenes {
+
+/// That of the Bullet in this program. There is one in each: both have the same names.
+inline constexpr Precision precision_here = sizeof(btScalar) == sizeof(double) ? Precision::doubled : Precision::single;
 
 /// What a Bullet world is made with. As it stands here, the world integrates velocities and does nothing else: every
 /// effect that a scene calls for adds its part. Stages of Bullet's step that are off are skipped, not run on nothing.

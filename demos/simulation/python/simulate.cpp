@@ -15,7 +15,6 @@
 
 #include "arrays.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "signals.hpp"
 #include "simulation/run/simulation.hpp"
 #include "usage.hpp"

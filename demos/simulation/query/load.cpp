@@ -5,7 +5,7 @@
 
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_parts.hpp"
-#include "simulation/query/meshes.hpp"
+#include "simulation/query/objects.hpp"
 #include "simulation/query/scene.hpp"
 
 namespace boxstream::query {

@@ -3,15 +3,21 @@
 
 #include <fcl/broadphase/broadphase_collision_manager.h>
 #include <fcl/narrowphase/collision_object.h>
-
 #include <deque>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "formats/scene_model/scene.hpp"
 #include "simulation/query/object_motion.hpp"
 
 namespace boxstream::query {
+
+/// A torus about y.
+scenes::MeshShape ring_mesh(double radius, double tube, int around, int across);
+
+/// A profile in the shape of an L, `thickness` thick, whose legs have `length`, drawn out along z to `width`.
+scenes::MeshShape bracket_mesh(double length, double width, double thickness);
 
 using Manager = ::fcl::BroadPhaseCollisionManager<double>;
 

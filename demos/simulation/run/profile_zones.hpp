@@ -7,7 +7,7 @@
 
 #include <LinearMath/btQuickprof.h>
 
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace boxstream::scenes {
 

@@ -6,7 +6,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
-#include "formats/record/end_all_pairs.hpp"
+#include "formats/record/forwarding_broadphase.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"

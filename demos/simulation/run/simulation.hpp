@@ -11,7 +11,7 @@
 #include <boxstream/pair.hpp>
 
 #include "formats/scene_model/scene.hpp"
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 #include "simulation/effects/plan.hpp"
 #include "simulation/engine/drawable.hpp"
 #include "simulation/engine/row_solver.hpp"

@@ -8,7 +8,7 @@
 
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/moved_apart.hpp"
-#include "simulation/engine/precision.hpp"
+#include "simulation/engine/world_recipe.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"
 

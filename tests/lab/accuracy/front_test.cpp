@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/front.hpp"
+#include "accuracy/work_precision.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 
 #include <filesystem>
 
-#include "base/bad_file.hpp"
 #include "base/read_file.hpp"
 #include "scratch_directory.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/printable.hpp"
+#include "base/words.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 
-#include "base/bad_file.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::files {

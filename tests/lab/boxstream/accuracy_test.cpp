@@ -8,7 +8,6 @@
 #include <optional>
 #include <sstream>
 
-#include "boxstream/accuracy/accuracy_page.hpp"
 #include "boxstream/accuracy/accuracy_writers.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"

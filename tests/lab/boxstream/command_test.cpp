@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "pictures/drawing/png_file.hpp"
 #include "process.hpp"
 #include "sanitized.hpp"

@@ -13,7 +13,6 @@
 #include "boxstream/advice/coarse_steps.hpp"
 #include "boxstream/advice/hard_families.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "simulation/run/simulation.hpp"
 #include "simulation/run/vitals.hpp"
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "formats/import/mesh.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "mesh/generators.hpp"
 #include "mesh/point_triangle.hpp"
 #include "mesh/self_intersection.hpp"

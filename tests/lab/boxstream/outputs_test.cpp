@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "process.hpp"
 #include "scenes/energy_gains.hpp"
 #include "scratch_directory.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "base/nearest_word.hpp"
 #include "base/sorted_sweep.hpp"
-#include "boxstream/shared/main_help.hpp"
+#include "base/words.hpp"
+#include "boxstream/shared/command.hpp"
+#include "boxstream/shared/print.hpp"
 #include "boxstream/simulate/summary.hpp"
-#include "boxstream/simulate/table.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool {

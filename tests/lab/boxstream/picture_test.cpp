@@ -8,7 +8,6 @@
 #include <limits>
 #include <sstream>
 
-#include "pictures/drawing/bounds.hpp"
 #include "pictures/drawing/camera.hpp"
 #include "pictures/drawing/chart.hpp"
 #include "pictures/drawing/colour_bar.hpp"

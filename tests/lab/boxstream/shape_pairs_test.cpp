@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "process.hpp"
 
 namespace boxstream::tool_test {

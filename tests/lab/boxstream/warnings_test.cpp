@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "measure/clock.hpp"
+#include "measure/stopwatch.hpp"
 
 namespace boxstream::measure_test {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "papers/hybrid/access.hpp"
 #include "papers/hybrid/approx_median.hpp"
+#include "papers/hybrid/box.hpp"
 #include "papers/hybrid/order.hpp"
 #include "random.hpp"
 #include "truth.hpp"

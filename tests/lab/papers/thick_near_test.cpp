@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "papers/thick/near.hpp"
+#include "papers/thick/report_intersections.hpp"
 
 #include <gtest/gtest.h>
 

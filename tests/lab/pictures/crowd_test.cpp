@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pictures/viewer/crowd.hpp"
+#include "pictures/viewer/snapshot.hpp"
 
 #include <gtest/gtest.h>
 

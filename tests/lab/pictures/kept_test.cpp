@@ -11,9 +11,8 @@
 
 #include "formats/scene_json/load_scene.hpp"
 #include "mixed.hpp"
-#include "pictures/viewer/crowd.hpp"
-#include "pictures/viewer/description.hpp"
 #include "pictures/viewer/model.hpp"
+#include "pictures/viewer/page.hpp"
 #include "pictures/viewer/recording.hpp"
 #include "pictures/viewer/snapshot.hpp"
 

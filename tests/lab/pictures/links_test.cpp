@@ -5,7 +5,6 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "mixed.hpp"
 #include "pictures/viewer/names.hpp"
 #include "pictures/viewer/snapshot.hpp"

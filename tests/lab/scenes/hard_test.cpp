@@ -11,7 +11,6 @@
 
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "shipped.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"

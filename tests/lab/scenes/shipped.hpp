@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/names.hpp"
 #include "formats/scene_model/scene.hpp"
 #include "sanitized.hpp"

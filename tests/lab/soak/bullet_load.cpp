@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "load.hpp"
 #include "simulation/run/pair_check.hpp"
 #include "simulation/run/simulation.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <random>
 
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "load.hpp"
 #include "simulation/query/run.hpp"
 

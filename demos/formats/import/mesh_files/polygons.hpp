@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "formats/import/raw_mesh.hpp"
+#include "formats/import/mesh_files/mesh_files.hpp"
 
 namespace boxstream::imports {
 

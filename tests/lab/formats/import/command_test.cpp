@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "process.hpp"
 #include "scratch_directory.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "formats/import/mesh.hpp"
-#include "formats/import/surface_note.hpp"
+#include "formats/import/mesh_reader.hpp"
 #include "mesh_files.hpp"
 #include "scratch_directory.hpp"
 

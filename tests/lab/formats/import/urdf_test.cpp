@@ -7,7 +7,6 @@
 #include "formats/import/geometry.hpp"
 #include "formats/import/mesh.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/expand.hpp"
 #include "solids.hpp"
 #include "urdf_robot.hpp"

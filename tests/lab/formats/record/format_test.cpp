@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "formats/record/text.hpp"
+#include "formats/record/op.hpp"
 #include "streams.hpp"
 
 namespace boxstream::record_test {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "formats/record/expected_pairs.hpp"
+#include "formats/record/op.hpp"
 #include "formats/record/recorder.hpp"
-#include "formats/record/text.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/names.hpp"
 #include "scenes/shipped.hpp"

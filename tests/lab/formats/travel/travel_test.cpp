@@ -9,8 +9,8 @@
 
 #include "formats/aabbs/reader.hpp"
 #include "formats/aabbs/writer.hpp"
+#include "formats/record/op.hpp"
 #include "formats/record/reader.hpp"
-#include "formats/record/text.hpp"
 #include "formats/record/writer.hpp"
 #include "source_path.hpp"
 

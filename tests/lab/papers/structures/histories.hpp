@@ -9,8 +9,8 @@
 
 #include "box_sets.hpp"
 #include "papers/structures/binary_structure.hpp"
-#include "papers/structures/kd_boxes.hpp"
 #include "papers/structures/kd_builder.hpp"
+#include "papers/structures/kd_tree.hpp"
 #include "papers/structures/worst_case_structure.hpp"
 
 /// The two dynamic k-d trees, what must be true of them after each operation, and histories to put them through.

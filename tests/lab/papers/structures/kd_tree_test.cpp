@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "box_sets.hpp"
-#include "papers/structures/kd_boxes.hpp"
 #include "papers/structures/kd_builder.hpp"
 #include "papers/structures/kd_tree.hpp"
 

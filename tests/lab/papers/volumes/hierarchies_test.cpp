@@ -5,7 +5,6 @@
 #include "papers/volumes/builders.hpp"
 #include "papers/volumes/front.hpp"
 #include "papers/volumes/query.hpp"
-#include "papers/volumes/traverse.hpp"
 #include "sanitized.hpp"
 #include "support.hpp"
 #include "truth.hpp"

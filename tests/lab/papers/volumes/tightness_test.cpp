@@ -6,9 +6,8 @@
 #include <numbers>
 
 #include "papers/volumes/builders.hpp"
-#include "papers/volumes/fields.hpp"
+#include "papers/volumes/objects.hpp"
 #include "papers/volumes/tightness.hpp"
-#include "papers/volumes/triangle_distance.hpp"
 #include "support.hpp"
 
 namespace boxstream::papers::volumes::tests {

@@ -8,7 +8,6 @@
 
 #include "papers/volumes/builders.hpp"
 #include "papers/volumes/splits.hpp"
-#include "papers/volumes/tiling.hpp"
 #include "support.hpp"
 
 namespace boxstream::papers::volumes::tests {

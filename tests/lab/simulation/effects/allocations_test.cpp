@@ -6,7 +6,6 @@
 #include <LinearMath/btAlignedAllocator.h>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "gallery.hpp"
 #include "heap_watch.hpp"
 #include "simulation/run/simulation.hpp"

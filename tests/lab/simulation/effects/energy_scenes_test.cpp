@@ -8,7 +8,6 @@
 #include <ostream>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "scenes/energy_gains.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"

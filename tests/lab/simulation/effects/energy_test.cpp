@@ -12,7 +12,6 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
 

@@ -5,7 +5,6 @@
 
 #include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 
 namespace boxstream::effects_test {
 

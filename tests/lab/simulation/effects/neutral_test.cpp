@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "gallery.hpp"
 #include "simulation/run/simulation.hpp"
 #include "simulation/run/state_hash.hpp"

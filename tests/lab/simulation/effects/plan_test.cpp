@@ -8,7 +8,6 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "formats/scene_model/repeated.hpp"
 #include "formats/scene_model/scene_error.hpp"
 #include "gallery.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "formats/scene_model/scene_error.hpp"
-#include "simulation/query/meshes.hpp"
+#include "simulation/query/objects.hpp"
 #include "simulation/query/scene.hpp"
 
 namespace boxstream::query_test {

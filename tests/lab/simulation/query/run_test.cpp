@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "formats/scene_json/shipped_scenes.hpp"
+#include "formats/scene_json/load_scene.hpp"
 #include "simulation/query/run.hpp"
 
 namespace boxstream::query_test {

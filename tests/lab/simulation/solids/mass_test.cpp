@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "formats/geometry/closed_forms.hpp"
 #include "formats/geometry/convex_hull.hpp"
+#include "formats/geometry/solid.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
 
 namespace boxstream::scenes {

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "golden.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"

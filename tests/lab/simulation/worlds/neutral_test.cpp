@@ -16,7 +16,6 @@
 #include "brute_force.hpp"
 #include "drops_one_pair.hpp"
 #include "formats/scene_json/load_scene.hpp"
-#include "formats/scene_json/shipped_scenes.hpp"
 #include "scenes/shipped.hpp"
 #include "simulation/run/simulation.hpp"
 #include "simulation/run/state_hash.hpp"

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "bullet/oracle.hpp"
-#include "formats/record/end_all_pairs.hpp"
+#include "formats/record/forwarding_broadphase.hpp"
 
 namespace boxstream::worlds_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "formats/geometry/closed_forms.hpp"
+#include "formats/geometry/solid.hpp"
 #include "minimal.hpp"
 
 /// chain.json by hand.

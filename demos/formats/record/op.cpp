@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "formats/record/text.hpp"
+#include "formats/record/op.hpp"
 
 #include <fmt/format.h>
 
-#include "base/printable.hpp"
+#include "base/words.hpp"
 
 namespace boxstream::record {
 namespace {

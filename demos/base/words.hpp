@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace boxstream {
@@ -14,3 +15,14 @@ std::string did_you_mean(const std::string& given, const std::vector<std::string
 std::string unknown_word(const std::string& noun, const std::string& given, const std::vector<std::string>& names);
 
 }  // namespace boxstream
+
+namespace boxstream::files {
+
+/// `text` as it may go to a terminal, on one line: control characters, marks that turn the direction of writing, and
+/// bytes that are no UTF-8 become \xNN. All else stays as it is.
+std::string printable(std::string_view text);
+
+/// The same for text of several lines, whose line breaks stay.
+std::string printable_lines(std::string_view text);
+
+}  // namespace boxstream::files
