@@ -18,7 +18,25 @@
 #include "simulation/run/simulation.hpp"
 #include "sweep.hpp"
 
+// What goes from one program to the other and back as it is.
+namespace boxstream::scenes {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, metric, op, value, at, at_end)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Gain, step, energy, share, body)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Work, fields, motors, surfaces, apart, other)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EnergyBalance, steps, first, now, in_world, work, gains)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorstMoment, step, objects)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vitals, deepest, deepest_share, end_share, when_deepest, joint_gap, joint_share,
+                                   when_widest, outside, elsewhere, height_loss, energy, most_in_world, most_gained,
+                                   vanished, conserves, failed_checks)
+
+}  // namespace boxstream::scenes
+
 namespace boxstream::accuracy {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Place, position, rotation)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Series, worst, p95, mean, last, integral)
+
 namespace {
 
 using nlohmann::json;
@@ -45,13 +63,11 @@ json json_of(const Trajectory& trajectory) {
       const btQuaternion& q = frame.rotations[i];
       for (const btScalar each : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) all.push_back(double{each});
     }
-  json contacts = json::array();
-  for (const auto& [pair, time] : trajectory.contacts) contacts.push_back({pair.first, pair.second, time});
   return {{"size", trajectory.size},
           {"frames", trajectory.frames.size()},
           {"bodies", trajectory.frames.empty() ? 0 : trajectory.frames.front().positions.size()},
           {"places", numbers(all)},
-          {"contacts", std::move(contacts)}};
+          {"contacts", trajectory.contacts}};
 }
 
 Trajectory trajectory_of(const json& document) {
@@ -69,100 +85,58 @@ Trajectory trajectory_of(const json& document) {
       const btScalar a = take(), b = take(), c = take(), w = take();
       frame.rotations.emplace_back(a, b, c, w);
     }
-  for (const json& each : document.at("contacts"))
-    trajectory.contacts[{each.at(0).get<int>(), each.at(1).get<int>()}] = each.at(2);
+  document.at("contacts").get_to(trajectory.contacts);
   return trajectory;
 }
 
 json json_of(const Reference& reference) {
-  return {{"trajectory", json_of(reference.trajectory)},   {"dt", reference.dt},
-          {"spread", numbers(reference.spread)},           {"error", numbers(reference.error)},
-          {"angle_error", numbers(reference.angle_error)}, {"holds", numbers({reference.holds})}};
+  return {{"trajectory", json_of(reference.trajectory)},
+          {"dt", reference.dt},
+          {"spread", reference.spread},
+          {"error", reference.error},
+          {"angle_error", reference.angle_error},
+          {"holds", reference.holds}};
 }
 
 Reference reference_of(const json& document) {
   Reference reference;
   reference.trajectory = trajectory_of(document.at("trajectory"));
-  reference.dt = document.at("dt");
-  reference.spread = numbers_of(document.at("spread"));
-  reference.error = numbers_of(document.at("error"));
-  reference.angle_error = numbers_of(document.at("angle_error"));
-  reference.holds = numbers_of(document.at("holds")).at(0);
+  document.at("dt").get_to(reference.dt);
+  document.at("spread").get_to(reference.spread);
+  document.at("error").get_to(reference.error);
+  document.at("angle_error").get_to(reference.angle_error);
+  document.at("holds").get_to(reference.holds);
   return reference;
 }
 
-/// Both ways: all numbers of a run's vitals, in one order.
-template <class Vitals, class Visit>
-void visit(Vitals& v, const Visit& take) {
-  for (auto* each : {&v.deepest, &v.deepest_share, &v.end_share, &v.joint_gap, &v.joint_share, &v.elsewhere,
-                     &v.height_loss, &v.most_in_world, &v.most_gained, &v.vanished, &v.energy.first, &v.energy.now,
-                     &v.energy.in_world, &v.energy.work.fields, &v.energy.work.motors, &v.energy.work.surfaces,
-                     &v.energy.work.apart, &v.energy.work.other})
-    take(*each);
-  for (auto* each : {&v.outside, &v.energy.steps, &v.energy.gains, &v.when_deepest.step, &v.when_widest.step})
-    take(*each);
-  for (auto* moment : {&v.when_deepest, &v.when_widest})
-    for (auto& each : moment->objects) take(each);
-  take(v.conserves);
-}
-
-json json_of(const scenes::Vitals& vitals) {
-  std::vector<double> all;
-  visit(vitals, [&](const auto& value) { all.push_back(static_cast<double>(value)); });
-  json document{{"numbers", numbers(all)}, {"failed_checks", vitals.failed_checks}};
-  if (const auto& worst = vitals.energy.worst)
-    document["worst"] = {worst->step, worst->energy, worst->share, worst->body};
-  return document;
-}
-
-scenes::Vitals vitals_of(const json& document) {
-  scenes::Vitals vitals;
-  const std::vector<double> all = numbers_of(document.at("numbers"));
-  std::size_t next = 0;
-  visit(vitals, [&](auto& value) { value = static_cast<std::remove_reference_t<decltype(value)>>(all.at(next++)); });
-  vitals.failed_checks = document.at("failed_checks").get<std::vector<std::string>>();
-  if (const auto worst = document.find("worst"); worst != document.end())
-    vitals.energy.worst = scenes::Gain{worst->at(0), worst->at(1), worst->at(2), worst->at(3)};
-  return vitals;
-}
-
 json job_of(const Request& request, const Source& source, const Scene& scene, std::uint64_t steps) {
-  json start = json::array();
-  for (const Place& place : source.start) start.push_back({place.position, place.rotation});
-  json checks = json::array();
-  for (const scenes::Check& c : scene.checks)
-    checks.push_back({static_cast<int>(c.metric), static_cast<int>(c.op), c.value, c.at, c.at_end});
   // In the file's words, which the other program reads.
   json document = source.document;
   document["solver"]["precision"] = scenes::precision_names().at(static_cast<std::size_t>(scene.solver.precision));
   return {{"file", request.file},
           {"document", document.dump()},
-          {"start", std::move(start)},
+          {"start", source.start},
           {"scale", request.scale},
           {"broadphase", request.broadphase},
           {"steps", steps},
           {"substeps", scene.time.substeps},
           {"iterations", scene.solver.iterations},
-          {"kind", static_cast<int>(scene.solver.kind)},
-          {"bounces", static_cast<int>(scene.solver.bounces)},
-          {"checks", std::move(checks)}};
+          {"kind", scene.solver.kind},
+          {"bounces", scene.solver.bounces},
+          {"checks", scene.checks}};
 }
 
 Scene scene_of(const json& job) {
   Scene scene = scenes::parse_scene(job.at("document"), job.at("file"));
   if (const double scale = job.at("scale"); scale != 1) scene = scenes::scaled(scene, scale);
-  std::vector<Place> start;
-  for (const json& place : job.at("start")) start.push_back({place.at(0), place.at(1)});
+  const std::vector<Place> start = job.at("start");
   if (!start.empty()) scene = placed(scene, start);
   scene.time.steps = job.at("steps");
   scene.time.substeps = job.at("substeps");
   scene.solver.iterations = job.at("iterations");
-  scene.solver.kind = static_cast<scenes::SolverKind>(job.at("kind").get<int>());
-  scene.solver.bounces = static_cast<scenes::Bounces>(job.at("bounces").get<int>());
-  scene.checks.clear();
-  for (const json& c : job.at("checks"))
-    scene.checks.push_back({static_cast<scenes::Check::Metric>(c.at(0).get<int>()),
-                            static_cast<scenes::Check::Op>(c.at(1).get<int>()), c.at(2), c.at(3), c.at(4)});
+  scene.solver.kind = job.at("kind");
+  scene.solver.bounces = job.at("bounces");
+  scene.checks = job.at("checks");
   return scene;
 }
 
@@ -222,15 +196,13 @@ bool sample_elsewhere(const Request& request, const Source& source, const Scene&
   if (said.empty()) return false;
   const json answer = json::from_cbor(said);
   if (answer.at("is_stopped").get<bool>()) return false;
-  for (const json& series : answer.at("series")) {
-    const std::vector<double> all = numbers_of(series);
-    row.series.push_back({all.at(0), all.at(1), all.at(2), all.at(3), all.at(4)});
-  }
-  row.bands = numbers_of(answer.at("bands"));
-  for (const json& values : answer.at("values")) row.values.push_back(numbers_of(values));
+  answer.at("series").get_to(row.series);
+  answer.at("bands").get_to(row.bands);
+  answer.at("values").get_to(row.values);
   const double ms = answer.at("ms");
   row.ms = {ms, ms, ms, ms};
-  row.vitals = vitals_of(answer.at("vitals"));
+  row.vitals = answer.at("vitals");
+  if (const auto gain = answer.find("worst_gain"); gain != answer.end()) row.vitals.energy.worst = *gain;
   row.failure = answer.at("failure");
   if (trajectory != nullptr) *trajectory = trajectory_of(answer.at("trajectory"));
   return true;
@@ -258,13 +230,9 @@ Bytes answer_job(const Bytes& given, const std::function<json(const Scene& scene
   const bool records = job.at("records");
   if (!run_and_sample(request, scene, reference_of(job.at("reference")), row, records ? &trajectory : nullptr))
     return bytes_of({{"is_stopped", true}});
-  json series = json::array(), values = json::array();
-  for (const Series& each : row.series)
-    series.push_back(numbers({each.worst, each.p95, each.mean, each.last, each.integral}));
-  for (const std::vector<double>& each : row.values) values.push_back(numbers(each));
-  json answer{{"is_stopped", false},         {"series", std::move(series)}, {"bands", numbers(row.bands)},
-              {"values", std::move(values)}, {"ms", row.ms.median},         {"vitals", json_of(row.vitals)},
-              {"failure", row.failure}};
+  json answer{{"is_stopped", false}, {"series", row.series}, {"bands", row.bands},    {"values", row.values},
+              {"ms", row.ms.median}, {"vitals", row.vitals}, {"failure", row.failure}};
+  if (row.vitals.energy.worst) answer["worst_gain"] = *row.vitals.energy.worst;
   if (records) answer["trajectory"] = json_of(trajectory);
   return bytes_of(answer);
 }
