@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
-
-#include "pictures/viewer/upright_box.hpp"
 
 namespace boxstream::view {
 namespace {
@@ -31,8 +30,7 @@ std::vector<std::uint32_t> turning(const Model& model) {
   return list;
 }
 
-FrameEncoder::FrameEncoder(float unit, const Model& model)
-    : unit_(unit), turning_(turning(model)), halves_(lone_halves(model)), pairs_(unit) {}
+FrameEncoder::FrameEncoder(float unit, const Model& model) : unit_(unit), turning_(turning(model)), pairs_(unit) {}
 
 std::int32_t FrameEncoder::fixed(double value, double quantum) const {
   if (std::isnan(value)) return Series::not_a_number;
@@ -52,7 +50,6 @@ void FrameEncoder::code_places(const Snapshot& snapshot) {
 }
 
 void FrameEncoder::code_rotations(const Snapshot& snapshot) {
-  former_rotations_ = rotations_.at();
   numbers_.clear();
   for (const std::uint32_t object : turning_)
     for (const float x : snapshot.poses[object].rotation) {
@@ -60,25 +57,11 @@ void FrameEncoder::code_rotations(const Snapshot& snapshot) {
       numbers_.push_back(fixed(part, rotation_unit));
     }
   rotations_.code(numbers_, block_);
-  if (former_rotations_.empty()) former_rotations_ = rotations_.at();
-}
-
-std::vector<std::int32_t> FrameEncoder::predicted_extents() const {
-  std::vector<std::int32_t> extents(3 * halves_.size());
-  for (std::size_t i = 0; i < turning_.size(); ++i) {
-    std::array<double, 4> rotation;
-    std::copy_n(&former_rotations_[4 * i], 4, rotation.begin());
-    const std::array<double, 3> halves = upright_halves(halves_[turning_[i]], rotation);
-    for (std::size_t d = 0; d < 3; ++d)
-      extents[std::size_t{3} * turning_[i] + d] = fixed(2 * halves[d], box_quantum * unit_);
-  }
-  return extents;
 }
 
 void FrameEncoder::code_boxes(const Snapshot& snapshot) {
   const double quantum = box_quantum * unit_;
   const double reach = std::ldexp(static_cast<double>(unit_), 25);
-  const std::vector<std::int32_t> predicted = predicted_extents();
   numbers_.assign(6 * snapshot.boxes.size(), Series::not_a_number);
   for (std::size_t i = 0; i < snapshot.boxes.size(); ++i) {
     const Snapshot::Box& box = snapshot.boxes[i];
@@ -88,7 +71,7 @@ void FrameEncoder::code_boxes(const Snapshot& snapshot) {
       const double min = std::clamp<double>(box.min[d], -reach, reach),
                    max = std::clamp<double>(box.max[d], -reach, reach);
       numbers_[6 * i + d] = fixed((min + max) / 2 - place, quantum);
-      numbers_[6 * i + 3 + d] = fixed(max - min, quantum) - predicted[3 * i + d];
+      numbers_[6 * i + 3 + d] = fixed(max - min, quantum);
     }
   }
   boxes_.code(numbers_, block_);

@@ -20,11 +20,10 @@ std::vector<std::uint32_t> turning(const Model& model);
 ///   places     3 for each object, wheel and node, in units; goes on
 ///   rotations  4 for each of `turning`, in `rotation_unit`; goes on
 ///   boxes      6 for each object and wheel, in two units: the middle, as seen from its place in the frame before, then
-///              the extents beyond those of `upright_halves` by its rotation then; no number if there is no box; goes
-///              on
+///              the extents; no number if there is no box; goes on
 ///   islands    1 for each object and wheel
 ///   moods      the same
-/// In the first frame of a block place and rotation are those of the frame itself. So every place and node is shown to
+/// In the first frame of a block that place is the one of the frame itself. So every place and node is shown to
 /// half a unit, each face of a box to two units, each component of a rotation to half a `rotation_unit`;
 /// rounding to sixteenths first adds a 32nd of a quantum.
 class FrameEncoder {
@@ -47,17 +46,14 @@ class FrameEncoder {
   void code_places(const Snapshot& snapshot);
   void code_rotations(const Snapshot& snapshot);
   void code_boxes(const Snapshot& snapshot);
-  /// Predicted extents of the box of each object, three numbers each, in sixteenths of its quantum.
-  std::vector<std::int32_t> predicted_extents() const;
 
   float unit_;
   std::vector<std::uint32_t> turning_;
-  std::vector<Point> halves_;
   std::size_t frames_ = 0;
   std::string block_;
   Series places_{true}, rotations_{true}, boxes_{true}, islands_{false}, moods_{false};
   PairCode pairs_;
-  std::vector<std::int32_t> numbers_, former_places_, former_rotations_;
+  std::vector<std::int32_t> numbers_, former_places_;
 };
 
 /// What is left out when a page would become too large is whole frames: the number of bytes to expect for one, in the

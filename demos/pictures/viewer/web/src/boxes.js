@@ -5,45 +5,15 @@ import { notANumber } from "./poses.js";
 // Boxes that reach this far, in units, have no end there.
 const endless = 2 ** 24;
 
-/** What upright_box.hpp of the recorder has: half extents of objects that are one box, cylinder, cone or capsule. */
-function loneHalves(run) {
-  const parts = new Map();
-  for (const part of run.parts) parts.set(part[0], parts.has(part[0]) ? null : part);
-  const all = new Float64Array(3 * run.states.length);
-  for (const [object, part] of parts) {
-    if (!part || part.length > 3) continue;
-    const { kind, ratio } = run.forms[part[1]];
-    if (!["box", "cylinder", "cone", "capsule"].includes(kind)) continue;
-    const [x, y, z] = part[2].map(Math.fround);
-    all.set([x, kind === "capsule" ? Math.fround(y * Math.fround(1 + ratio)) : y, z], 3 * object);
-  }
-  return all;
-}
-
-/** Half of the extents of the upright box around such an object, turned by its rotation in `frame`. */
-function predicted({ rotations }, object, halves) {
-  const [x, y, z, w] = rotations.subarray(4 * object, 4 * object + 4);
-  const [a, b, c] = halves.subarray(3 * object, 3 * object + 3);
-  const length = x * x + y * y + z * z + w * w;
-  const half = (i, j, k) => (Math.abs(i) * a + Math.abs(j) * b + Math.abs(k) * c) / length;
-  return [
-    half(w * w + x * x - y * y - z * z, 2 * (x * y - z * w), 2 * (x * z + y * w)),
-    half(2 * (x * y + z * w), w * w - x * x + y * y - z * z, 2 * (y * z - x * w)),
-    half(2 * (x * z - y * w), 2 * (y * z + x * w), w * w - x * x - y * y + z * z),
-  ];
-}
-
 /** The box of an object in a frame, in the units of the world; false if there is none, or no end to it. */
 export function boxOf(frame, object, run, min, max) {
   const { boxes } = frame;
-  const before = frame.former ?? frame;
-  const from = before.places;
-  const turned = predicted(before, object, (run.halves ??= loneHalves(run)));
+  const from = (frame.former ?? frame).places;
   for (let d = 0; d < 3; ++d) {
     if (boxes[6 * object + d] === notANumber) return false;
     const place = from[3 * object + d];
     const middle = 2 * boxes[6 * object + d] + (place === notANumber ? 0 : place);
-    const half = Math.max(boxes[6 * object + 3 + d] + Math.round((turned[d] / run.unit) * run.fine), 0);
+    const half = Math.max(boxes[6 * object + 3 + d], 0);
     if (Math.abs(middle) + half >= endless * run.fine) return false;
     min[d] = ((middle - half) * run.unit) / run.fine;
     max[d] = ((middle + half) * run.unit) / run.fine;
