@@ -213,12 +213,14 @@ Action set_up_accuracy(CommandLine& command) {
       command
           .add_option("--knob", options->knobs,
                       "A value of the scene, and what to set it to; may be repeated; default: what is worth trying")
-          .type("NAME=VALUE,VALUE...")
-          .takes_all(),
+          ->type_name("NAME=VALUE,VALUE...")
+          ->expected(1)
+          ->take_all(),
       knobs_to_set);
   command.complete(add_name(command, "--metric", options->metrics,
                             "What to measure; may be repeated; default: penetration, energy_drift")
-                       .takes_all(),
+                       ->expected(1)
+                       ->take_all(),
                    accuracy::measure_names);
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   add_steps(command, options->steps, "Of the scene as it is; all settings simulate the same time");
@@ -232,21 +234,21 @@ Action set_up_accuracy(CommandLine& command) {
   command
       .add_option("--bound", options->bound,
                   "Find the cheapest setting whose first metric is off by no more: 5mm, 0.1%, 2")
-      .type("BOUND");
+      ->type_name("BOUND");
   command.add_flag("--advise", options->advise, "Find the cheapest sound setting, and do not try all");
   command.add_option("--body", options->body, "Body of the metrics x, y, z, speed and spin: its name, or its number")
-      .type("NAME");
+      ->type_name("NAME");
   command
       .add_option("--joint", options->joint,
                   "Joint of the metrics joint_error and joint_angle: its bodies A,B, or its number; default: all")
-      .type("NAME");
-  command.add_option("--at", options->at, "Measure at this time, in seconds, and end there").type("SECONDS");
+      ->type_name("NAME");
+  command.add_option("--at", options->at, "Measure at this time, in seconds, and end there")->type_name("SECONDS");
   command
       .add_option("--truth", options->truth,
                   "What the first metric should be: a number, or the name of a closed form of "
                   "docs/internals/closed-forms.md; or "
                   "POINTER=NUMBER of the JSON of simulate; or FILE.csv of seconds,x,y,z of --body")
-      .type("TRUTH");
+      ->type_name("TRUTH");
   add_file(command, "--csv", options->csv, "Write the table; - is standard output");
   add_json(command, options->json);
   add_file(command, "--plot", options->plot, "Draw time against the first metric: FILE.svg or FILE.png");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,40 +25,37 @@ struct Candidates {
 /// Where in the command line a word stands.
 struct Place {
   const CommandLine* command;
-  std::optional<Option> waiting = {};  // an option whose value comes next
-  std::size_t arguments = 0;           // of the command, already there
-  bool only_arguments = false;         // after "--"
-  std::set<Option> used = {};
+  const CLI::Option* waiting = nullptr;  // an option whose value comes next
+  std::size_t arguments = 0;             // of the command, already there
+  bool only_arguments = false;           // after "--"
+  std::set<const CLI::Option*> used = {};
 };
 
 bool is_option(const Place& place, const std::string& word) {
   return !place.only_arguments && word.size() > 1 && word[0] == '-';
 }
 
-std::optional<Option> find_option(const CommandLine& command, const std::string& name) {
-  for (const Option& option : command.options())
-    for (const std::string& each : option.names())
-      if (each == name) return option;
-  return std::nullopt;
+const CLI::Option* find_option(const CommandLine& command, const std::string& name) {
+  return command.get_option_no_throw(name);
 }
 
 const CommandLine* find_command(const CommandLine& above, const std::string& name) {
   for (const CommandLine* const each : above.below())
-    if (each->name() == name) return each;
+    if (each->get_name() == name) return each;
   return nullptr;
 }
 
 void pass_option(Place& place, const std::string& word) {
   const std::size_t equals = word.find('=');
-  const std::optional<Option> option = find_option(*place.command, word.substr(0, equals));
+  const CLI::Option* const option = find_option(*place.command, word.substr(0, equals));
   if (!option) return;
-  place.used.insert(*option);
-  if (equals == std::string::npos && option->takes_value()) place.waiting = option;
+  place.used.insert(option);
+  if (equals == std::string::npos && option->get_items_expected_max() > 0) place.waiting = option;
 }
 
 void pass(Place& place, const std::string& word) {
   if (place.waiting) {
-    place.waiting.reset();
+    place.waiting = nullptr;
   } else if (!place.only_arguments && word == "--") {
     place.only_arguments = true;
   } else if (is_option(place, word)) {
@@ -77,12 +73,18 @@ std::string up_to_next_slash(const std::string& word, std::size_t begun) {
   return slash == std::string::npos ? word : word.substr(0, slash + 1);
 }
 
+/// Options of type FILE, and arguments without a type.
+bool takes_files(const CLI::Option& option) {
+  return option.get_type_name() == (option.get_positional() ? "" : "FILE");
+}
+
 /// `before` stands in front of the value in the same word: "--json=".
-Candidates values(const Place& place, const Option& option, std::string before, std::string begun) {
+Candidates values(const Place& place, const CLI::Option* option, std::string before, std::string begun) {
   Candidates found;
-  if (option.takes_files()) found.beside = Candidates::Beside::files;
-  if (option.type() == "DIR") found.beside = Candidates::Beside::directories;
-  if (const std::size_t comma = begun.rfind(option.delimiter()); option.delimiter() != '\0' && comma < begun.size()) {
+  if (takes_files(*option)) found.beside = Candidates::Beside::files;
+  if (option->get_type_name() == "DIR") found.beside = Candidates::Beside::directories;
+  const char delimiter = option->get_delimiter();  // 0: none
+  if (const std::size_t comma = begun.rfind(delimiter); delimiter != '\0' && comma < begun.size()) {
     before += begun.substr(0, comma + 1);
     begun.erase(0, comma + 1);
   }
@@ -96,23 +98,23 @@ Candidates values(const Place& place, const Option& option, std::string before, 
 
 Candidates options(const Place& place, const std::string& begun) {
   Candidates found;
-  for (const Option& option : place.command->options())
-    for (const std::string& name : option.names())
-      if (name.starts_with(begun) && (place.used.count(option) == 0 || option.may_repeat()))
-        found.words.push_back({name, option.text()});
+  for (const CLI::Option* const option : place.command->options())
+    for (const std::string& name : names_of(*option))
+      if (name.starts_with(begun) && (place.used.count(option) == 0 || option->get_allow_extra_args()))
+        found.words.push_back({name, option->get_description()});
   return found;
 }
 
 Candidates arguments(const Place& place, const std::string& begun) {
-  const std::vector<Option> all = place.command->arguments();
-  if (all.empty() || (place.arguments >= all.size() && !all.back().takes_several())) return {};
+  const std::vector<const CLI::Option*> all = place.command->arguments();
+  if (all.empty() || (place.arguments >= all.size() && all.back()->get_items_expected_max() <= 1)) return {};
   return values(place, all[std::min(place.arguments, all.size() - 1)], "", begun);
 }
 
 Candidates commands(const CommandLine& above, const std::string& begun) {
   Candidates found;
   for (const CommandLine* const each : above.below())
-    if (each->name().starts_with(begun)) found.words.push_back({each->name(), each->about()});
+    if (each->get_name().starts_with(begun)) found.words.push_back({each->get_name(), each->get_description()});
   return found;
 }
 
@@ -122,12 +124,12 @@ Candidates candidates(const CommandLine& all, const std::vector<std::string>& ty
   if (typed.empty()) return commands(all, "");
   std::for_each(typed.begin(), typed.end() - 1, [&](const std::string& word) { pass(place, word); });
   const std::string& begun = typed.back();
-  if (place.waiting) return values(place, *place.waiting, "", begun);
+  if (place.waiting) return values(place, place.waiting, "", begun);
   if (!place.only_arguments && begun.starts_with("-")) {
     const std::size_t equals = begun.find('=');
     if (equals == std::string::npos) return options(place, begun);
-    const std::optional<Option> option = find_option(*place.command, begun.substr(0, equals));
-    return !option ? Candidates{} : values(place, *option, begun.substr(0, equals + 1), begun.substr(equals + 1));
+    const CLI::Option* const option = find_option(*place.command, begun.substr(0, equals));
+    return !option ? Candidates{} : values(place, option, begun.substr(0, equals + 1), begun.substr(equals + 1));
   }
   if (!place.command->below().empty()) return commands(*place.command, begun);
   return arguments(place, begun);
@@ -146,9 +148,9 @@ std::string text_of(const Candidates& found) {
 
 Action set_up_complete(CommandLine& command) {
   const auto words = std::make_shared<std::vector<std::string>>();
-  command.hide();
+  command.group("");  // not for users
   command.add_option("WORD", *words);
-  const CommandLine& all = *command.above();
+  const auto& all = static_cast<const CommandLine&>(*command.get_parent());
   return [words, &all] {
     print_raw(text_of(candidates(all, *words)));
     return 0;

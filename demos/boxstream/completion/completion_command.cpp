@@ -19,7 +19,7 @@ Action set_up_completion(CommandLine& command) {
   const auto shell = std::make_shared<std::string>();
   std::vector<std::string> names;
   for (const Shell& each : shells()) names.push_back(each.name);
-  take_words(command, add_name(command, "SHELL", *shell, "{}"), "shell", names).required();
+  take_words(command, add_name(command, "SHELL", *shell, "{}"), "shell", names)->required();
   return [shell] { return print_script(*shell); };
 }
 

@@ -122,8 +122,8 @@ int run_import(const ImportOptions& options) {
 
 Action set_up_import(CommandLine& command) {
   const auto options = std::make_shared<ImportOptions>();
-  add_input(command, "FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf or .glb").required();
-  add_file(command, "-o,--output", options->output, "Scene to write; - is standard output").required();
+  add_input(command, "FILE", options->file, ".urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf or .glb")->required();
+  add_file(command, "-o,--output", options->output, "Scene to write; - is standard output")->required();
   take_words(command,
              add_name(command, "--up", options->up, "The file's upward axis, {}; default: z for .urdf, else y"), "axis",
              {"y", "z"});
@@ -133,8 +133,8 @@ Action set_up_import(CommandLine& command) {
   command
       .add_option("--package-path", options->packages,
                   "URDF: folder that package:// means, or that holds it; may be repeated")
-      .type("DIR")
-      .existing_directory();
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
   command.add_flag("--static", options->keep_still, "Mesh: a static triangle mesh in place of convex parts");
   add_number(command, "--density", options->density, "kg/m^3 of meshes (1000) and of links without a mass (an error)",
              1e-6, 1e5, "D");

@@ -31,8 +31,8 @@ int answer(const Files& files) try {
 
 Action set_up_answer(CommandLine& command) {
   const auto files = std::make_shared<Files>();
-  add_input(command, "JOB", files->job, "What boxstream accuracy asks").required();
-  add_input(command, "ANSWER", files->answer, "Where the answer goes").required();
+  add_input(command, "JOB", files->job, "What boxstream accuracy asks")->required();
+  add_input(command, "ANSWER", files->answer, "Where the answer goes")->required();
   return [files] { return answer(*files); };
 }
 

@@ -9,7 +9,6 @@
 #include "boxstream/mesh/surface.hpp"
 #include "boxstream/shared/command.hpp"
 #include "boxstream/shared/print.hpp"
-#include "boxstream/simulate/reports.hpp"
 #include "mesh/self_intersection.hpp"
 
 namespace boxstream::tool {
@@ -99,9 +98,10 @@ int run_mesh_check(const MeshCheckOptions& options) {
 
 Action set_up_mesh_check(CommandLine& command) {
   const auto options = std::make_shared<MeshCheckOptions>();
-  add_input(command, "FILE", options->file, "Mesh").required();
+  add_input(command, "FILE", options->file, "Mesh")->required();
   command.add_flag("--list", options->list, "Print all pairs, by numbers of the file's faces from 0 on");
-  command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png").type("FILE");
+  command.add_option("--picture", options->picture, "Write it with them in red: FILE.ply, .glb or .png")
+      ->type_name("FILE");
   return [options] { return run_mesh_check(*options); };
 }
 

@@ -96,11 +96,12 @@ int run_mesh_distance(const MeshDistanceOptions& options) {
 
 Action set_up_mesh_distance(CommandLine& command) {
   const auto options = std::make_shared<MeshDistanceOptions>();
-  add_input(command, "A", options->a, "Mesh").required();
-  add_input(command, "B", options->b, "Mesh").required();
+  add_input(command, "A", options->a, "Mesh")->required();
+  add_input(command, "B", options->b, "Mesh")->required();
   command.add_option("--picture", options->picture, "Write A, coloured by distance from B: FILE.ply, .glb or .png")
-      .type("FILE");
-  command.add_option("--picture-back", options->picture_back, "Write B, coloured by distance from A").type("FILE");
+      ->type_name("FILE");
+  command.add_option("--picture-back", options->picture_back, "Write B, coloured by distance from A")
+      ->type_name("FILE");
   return [options] { return run_mesh_distance(*options); };
 }
 

@@ -29,9 +29,9 @@ Action set_up_mesh_make(CommandLine& command) {
   const auto options = std::make_shared<MeshMakeOptions>();
   take_words(command, add_name(command, "SURFACE", options->surface, "{}; klein is a bottle that goes through itself"),
              "surface", {"klein", "sphere", "torus"})
-      .required();
-  command.add_option("N", options->n, "Cells around; default: 64").in_range(8, 4000);
-  command.add_option("-o,--out", options->output, "FILE.ply, .glb or .png").type("FILE").required();
+      ->required();
+  command.add_option("N", options->n, "Cells around; default: 64")->check(CLI::Range(8, 4000));
+  command.add_option("-o,--out", options->output, "FILE.ply, .glb or .png")->type_name("FILE")->required();
   return [options] { return run_mesh_make(*options); };
 }
 

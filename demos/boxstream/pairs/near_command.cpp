@@ -176,14 +176,14 @@ int run_near(const NearOptions& options) {
 Action set_up_near(CommandLine& command) {
   const auto options = std::make_shared<NearOptions>();
   add_input(command, "FILE", options->file, "Rows of points or balls; - is standard input");
-  command.add_option("--radius", options->radius, "The distance; of traffic, by default the usual one").type("R");
+  command.add_option("--radius", options->radius, "The distance; of traffic, by default the usual one")->type_name("R");
   add_number(command, "--dimensions", options->dimensions, "Of FILE; default: 2 for two columns, else 3", 2, 3, "D");
-  const Option traffic =
+  CLI::Option* const traffic =
       take_words(command, add_name(command, "--traffic", options->traffic, "Generate {} traffic in place of FILE"),
                  "traffic", {"air", "sea"});
-  command.option("--dimensions").excludes(traffic);
-  add_number(command, "--count", options->count, "Aircraft or ships; default: 2000", 1, 10'000'000).needs(traffic);
-  command.add_option("--seed", options->seed, "Of the traffic; default: 1").type("N").needs(traffic);
+  command.get_option("--dimensions")->excludes(traffic);
+  add_number(command, "--count", options->count, "Aircraft or ships; default: 2000", 1, 10'000'000)->needs(traffic);
+  command.add_option("--seed", options->seed, "Of the traffic; default: 1")->type_name("N")->needs(traffic);
   take_words(command, add_name(command, "--engine", options->engine, "{}; default: production"), "engine",
              {"production", "thick"});
   command.add_flag("--list", options->list, "Print the pairs");

@@ -61,15 +61,15 @@ int run_pairs(const PairsOptions& options) {
 
 Action set_up_pairs(CommandLine& command) {
   const auto options = std::make_shared<PairsOptions>();
-  add_input(command, "FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input").required();
+  add_input(command, "FILE", options->file, "Rows of boxes, or JSON of shapes; - is standard input")->required();
   command.add_flag("--list", options->list, "Print the pairs");
-  const Option method = take_words(
+  CLI::Option* const method = take_words(
       command, add_name(command, "--method", options->method, "Boxes: how pairs are found, {}; default: planned"),
       "method", {"planned", "hybrid"});
   add_number(command, "--cutoff", options->cutoff,
              "Boxes: the hybrid method scans nodes of fewer intervals or points; default: where samples say so", 1,
              2'000'000'000)
-      .needs(method);
+      ->needs(method);
   add_number(command, "--tolerance", options->narrow.tolerance,
              "Shapes: largest error of depths and distances, as a fraction of the smaller shape; default: 1e-6", 1e-15,
              0.1, "T");

@@ -152,16 +152,16 @@ std::vector<std::string> names_of(Span<const Experiment> experiments) {
 /// `noun`: what an experiment is called.
 OptionsOfPaper add_options(CommandLine& command, const std::string& noun, Span<const Experiment> experiments) {
   const auto options = std::make_shared<PaperOptions>();
-  Option choice =
+  CLI::Option* const choice =
       command.add_option("--" + noun, options->figures, "Which ones, separated by commas: {}; default: all");
-  take_words(command, choice.type("LIST").separated_by(','), noun, names_of(experiments));
+  take_words(command, choice->type_name("LIST")->delimiter(','), noun, names_of(experiments));
   command.add_flag("--quick", options->quick, "Small sets: seconds in place of minutes");
-  command.add_option("--csv", options->csv, "Write a table each into this directory").type("DIR");
-  command.add_option("--svg", options->svg, "Write a plot each into this directory").type("DIR");
+  command.add_option("--csv", options->csv, "Write a table each into this directory")->type_name("DIR");
+  command.add_option("--svg", options->svg, "Write a plot each into this directory")->type_name("DIR");
   command.add_option("--repeats", options->repeats, "Runs to take the median of; default: 3")
-      .type("N")
-      .in_range(1, 1000);
-  command.add_option("--seed", options->seed, "Of the input; default: 1").type("N");
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--seed", options->seed, "Of the input; default: 1")->type_name("N");
   return options;
 }
 
@@ -172,7 +172,7 @@ void add_orders(CommandLine& command, const OptionsOfPaper& options) {
           "--order", options->order,
           "Dimensions scanned, of the second and of the first level of the tree; default: 012. For figures 7, 8, "
           "10, table1 and batches")
-      .type("DIGITS");
+      ->type_name("DIGITS");
   command.add_flag("--restart", options->restart,
                    "There, restart in another dimension where the first tree does not divide the intervals");
 }

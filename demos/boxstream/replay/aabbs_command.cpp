@@ -10,7 +10,6 @@
 #include "base/sorted_sweep.hpp"
 #include "boxstream/replay/frame_player.hpp"
 #include "boxstream/replay/large_frames.hpp"
-#include "boxstream/replay/max_pairs.hpp"
 #include "boxstream/replay/reports.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -186,26 +185,24 @@ int run_aabbs(const AabbsOptions& options) {
 
 Action set_up_aabbs(CommandLine& command) {
   const auto options = std::make_shared<AabbsOptions>();
-  add_input(command, "FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input").required();
+  add_input(command, "FILE", options->file, "Frames (simulate --record, or Broadmark); - is standard input")
+      ->required();
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: world"), {"world"});
   take_broadphase(command, add_name(command, "--compare", options->compare, "Run this one too, and compare pairs"),
                   {"world"});
-  const Option max_pairs = add_max_pairs(command, options->max_pairs);
-  const Option memory =
-      command
-          .add_option(
-              "--memory", options->memory,
-              "For frames of any size: search with about this much memory (64K or more; 1G), and a temporary file")
-          .type("BYTES")
-          .as_size(std::uint64_t{64} << 10, std::uint64_t{1} << 50)
-          .excludes(command.option("--broadphase"))
-          .excludes(command.option("--compare"))
-          .excludes(max_pairs);
+  CLI::Option* const max_pairs = add_max_pairs(command, options->max_pairs);
+  CLI::Option* const memory = command.add_option(
+      "--memory", options->memory,
+      "For frames of any size: search with about this much memory (64K or more; 1G), and a temporary file");
+  take_size(memory->type_name("BYTES"), std::uint64_t{64} << 10, std::uint64_t{1} << 50)
+      ->excludes(command.get_option("--broadphase"))
+      ->excludes(command.get_option("--compare"))
+      ->excludes(max_pairs);
   add_file(command, "--temporary", options->directory, "Folder of the temporary file; default: the system's")
-      .type("DIR")
-      .needs(memory);
+      ->type_name("DIR")
+      ->needs(memory);
   add_file(command, "--pairs", options->pairs, "Write each pair, a line each: frame, a, b; - is standard output")
-      .needs(memory);
+      ->needs(memory);
   add_json(command, options->json);
   command.last_counts({"--broadphase", "--compare", "--max-pairs", "--memory", "--temporary", "--pairs", "--json"});
   return [options] { return run_aabbs(*options); };

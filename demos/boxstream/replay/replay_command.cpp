@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "base/read_file.hpp"
-#include "boxstream/replay/max_pairs.hpp"
 #include "boxstream/replay/reports.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -124,7 +123,7 @@ int run_replay(const ReplayOptions& options) {
 
 Action set_up_replay(CommandLine& command) {
   const auto options = std::make_shared<ReplayOptions>();
-  add_input(command, "FILE", options->file, "Recording (simulate --log); - is standard input").required();
+  add_input(command, "FILE", options->file, "Recording (simulate --log); - is standard input")->required();
   take_broadphase(command, add_name(command, "--broadphase", options->broadphase, "{}; default: boxstream"));
   take_broadphase(command, add_name(command, "--compare", options->compare, "Replay on this one too"));
   add_json(command, options->json, "Write the result");

@@ -2,6 +2,7 @@
 #include "boxstream/shared/command.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/words.hpp"
 #include "formats/scene_model/names.hpp"
@@ -20,13 +21,15 @@ std::string either(const std::vector<std::string>& words) {
 }  // namespace
 
 void add_command(CommandLine& above, const Command& command, Action& chosen) {
-  CommandLine& added = above.add_below(command.name, command.about);
-  if (*command.help != '\0') added.footer(command.help);  // else that of the command above
+  const auto part_of = std::make_shared<CommandLine>(command.about, command.name);
+  above.add_subcommand(part_of);
+  CommandLine& added = *part_of;
+  added.footer(*command.help != '\0' ? command.help : above.get_footer());
   for (const Command* const part : command.parts) add_command(added, *part, chosen);
   if (!command.parts.empty()) {
-    added.require_below();
+    added.require_subcommand(1);
   } else {
-    added.on_parsed([&chosen, action = command.set_up(added)] { chosen = action; });
+    added.callback([&chosen, action = command.set_up(added)] { chosen = action; });
   }
 }
 
@@ -38,30 +41,36 @@ void add_scale(CommandLine& command, double& scale, const char* text) {
   add_number(command, "--scale", scale, text, 1e-4, 1e4, "FACTOR");
 }
 
-Option add_json(CommandLine& command, std::string& file, const std::string& text) {
-  return command.add_option("--json", file, text + "; - is standard output").type("FILE");
+CLI::Option* add_max_pairs(CommandLine& command, std::uint64_t& most) {
+  return add_number(command, "--max-pairs", most, "Refuse more pairs at once than this; default: 1000000", 1,
+                    std::numeric_limits<int>::max());
 }
 
-Option add_budget(CommandLine& command, double& seconds, const char* text) {
-  return command.add_option("--budget", seconds, text).type("TIME").as_time(1, 100000);
+CLI::Option* add_json(CommandLine& command, std::string& file, const std::string& text) {
+  return command.add_option("--json", file, text + "; - is standard output")->type_name("FILE");
 }
 
-Option add_input(CommandLine& command, const char* name, std::string& file, const char* text) {
-  return command.add_option(name, file, text).type("");
+CLI::Option* add_budget(CommandLine& command, double& seconds, const char* text) {
+  return take_time(command.add_option("--budget", seconds, text)->type_name("TIME"), 1, 100000);
 }
 
-Option take_words(CommandLine& command, Option option, const std::string& noun, const std::vector<std::string>& words) {
-  std::string text = option.text();
+CLI::Option* add_input(CommandLine& command, const char* name, std::string& file, const char* text) {
+  return command.add_option(name, file, text)->type_name("");
+}
+
+CLI::Option* take_words(CommandLine& command, CLI::Option* option, const std::string& noun,
+                        const std::vector<std::string>& words) {
+  std::string text = option->get_description();
   if (const std::size_t place = text.find("{}"); place != std::string::npos) text.replace(place, 2, either(words));
-  option.text(text);
+  option->description(text);
   command.complete(option, [words] { return words; });
-  return option.check([noun, words](const std::string& given) {
+  return option->check([noun, words](const std::string& given) {
     const bool known = words.empty() || std::find(words.begin(), words.end(), given) != words.end();
     return known ? std::string{} : unknown_word(noun, given, words);
   });
 }
 
-Option take_broadphase(CommandLine& command, Option option, std::vector<std::string> more) {
+CLI::Option* take_broadphase(CommandLine& command, CLI::Option* option, std::vector<std::string> more) {
   more.insert(more.end(), scenes::broadphase_names().begin(), scenes::broadphase_names().end());
   return take_words(command, option, "broad-phase", more);
 }

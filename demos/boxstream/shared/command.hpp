@@ -47,31 +47,34 @@ void add_command(CommandLine& above, const Command& command, Action& chosen);
 // Options that several commands have.
 void add_steps(CommandLine& command, std::optional<std::uint64_t>& steps, const char* text);
 void add_scale(CommandLine& command, double& scale, const char* text);
+/// --max-pairs, beyond which a file is refused; Bullet counts pairs in `int`.
+CLI::Option* add_max_pairs(CommandLine& command, std::uint64_t& most);
 /// `text` says what is written.
-Option add_json(CommandLine& command, std::string& file,
-                const std::string& text = "Write everything that was measured");
+CLI::Option* add_json(CommandLine& command, std::string& file,
+                      const std::string& text = "Write everything that was measured");
 
 template <class Value>
-Option add_file(CommandLine& command, const char* option, Value& value, const char* text) {
-  return command.add_option(option, value, text).type("FILE");
+CLI::Option* add_file(CommandLine& command, const char* option, Value& value, const char* text) {
+  return command.add_option(option, value, text)->type_name("FILE");
 }
 /// How long the command may look: `seconds` is the default.
-Option add_budget(CommandLine& command, double& seconds, const char* text);
+CLI::Option* add_budget(CommandLine& command, double& seconds, const char* text);
 /// The argument `name`, a file to read.
-Option add_input(CommandLine& command, const char* name, std::string& file, const char* text);
+CLI::Option* add_input(CommandLine& command, const char* name, std::string& file, const char* text);
 template <class Value>
-Option add_name(CommandLine& command, const char* option, Value& value, const char* text) {
-  return command.add_option(option, value, text).type("NAME");
+CLI::Option* add_name(CommandLine& command, const char* option, Value& value, const char* text) {
+  return command.add_option(option, value, text)->type_name("NAME");
 }
 template <class Value, class Number>
-Option add_number(CommandLine& command, const char* option, Value& value, const char* text, Number least, Number most,
-                  const char* type = "N") {
-  return command.add_option(option, value, text).type(type).in_range(least, most);
+CLI::Option* add_number(CommandLine& command, const char* option, Value& value, const char* text, Number least,
+                        Number most, const char* type = "N") {
+  return command.add_option(option, value, text)->type_name(type)->check(CLI::Range(least, most));
 }
 /// Takes one of `words` and refuses others: "unknown NOUN ...". "{}" in its text stands for "these, those or others".
 /// Of no words it takes any, which a build without their engine refuses later.
-Option take_words(CommandLine& command, Option option, const std::string& noun, const std::vector<std::string>& words);
+CLI::Option* take_words(CommandLine& command, CLI::Option* option, const std::string& noun,
+                        const std::vector<std::string>& words);
 /// Takes a broad-phase for Bullet, or one of `more`.
-Option take_broadphase(CommandLine& command, Option option, std::vector<std::string> more = {});
+CLI::Option* take_broadphase(CommandLine& command, CLI::Option* option, std::vector<std::string> more = {});
 
 }  // namespace boxstream::tool

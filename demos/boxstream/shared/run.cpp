@@ -27,14 +27,14 @@ char**& given_arguments() {
 int run(int argc, char** argv) {
   given_arguments() = argv;
   CommandLine app("Finds the pairs of axis-aligned boxes that touch, in physics scenes and in files.", "boxstream");
-  app.add_version(version_text());
-  app.require_below();
+  app.set_version_flag("--version", version_text(), "Print versions and exit");
+  app.require_subcommand(1);
   app.footer(main_help(missing_commands()));
 
   Action chosen;
   for (const Command* const command : commands()) add_command(app, *command, chosen);
 
-  if (const std::string help = app.parse(argc, argv); !help.empty()) {
+  if (const std::string help = parse(app, argc, argv); !help.empty()) {
     print_help(help);
     return 0;
   }

@@ -63,8 +63,8 @@ std::vector<std::string> scene_names(SceneKind kind) {
   return names;
 }
 
-Option add_scene(CommandLine& command, std::string& scene, SceneKind kind) {
-  const Option option = add_input(command, "SCENE", scene, "Scene file or name").required();
+CLI::Option* add_scene(CommandLine& command, std::string& scene, SceneKind kind) {
+  CLI::Option* const option = add_input(command, "SCENE", scene, "Scene file or name")->required();
   command.complete(option, [kind] { return scene_names(kind); });
   return option;
 }

@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> shipped_scenes(SceneKind kind);
 std::vector<std::string> scene_names(SceneKind kind);
 
 /// The argument SCENE: a file or the name of a scene.
-Option add_scene(CommandLine& command, std::string& scene, SceneKind kind);
+CLI::Option* add_scene(CommandLine& command, std::string& scene, SceneKind kind);
 
 /// The file meant by `name`: a path, or the bare name of a shipped scene ("pile"). Throws BadInput with the names of
 /// the shipped scenes of this kind if it is neither.

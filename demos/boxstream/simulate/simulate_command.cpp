@@ -220,7 +220,8 @@ Action set_up_simulate(CommandLine& command) {
   add_scale(command, options->scale, "About this many times as many generated bodies; default: 1");
   add_file(command, "--record", options->record,
            "Write FILE.glb, an animation (glTF 2.0), or FILE.aabbs, the boxes of all objects in each step")
-      .takes_all();
+      ->expected(1)
+      ->take_all();
   add_file(command, "--csv", options->csv,
            "Write a table of each step: pairs, times, energy, penetration ...; - is standard output");
   add_file(command, "--states", options->states,
@@ -236,11 +237,11 @@ Action set_up_simulate(CommandLine& command) {
              "Keep every Nth step in the page; default: as many as fit in 60 MB", 1, 10'000'000);
   add_number(command, "--view-bodies", options->view_bodies,
              "Show at most N bodies in the page, those nearest at first and a sample; default: 100000", 1, 100'000'000);
-  const Option all_effects =
+  CLI::Option* const all_effects =
       command.add_flag("--all-effects", options->all_effects, "Build what the scene does not call for too");
   command
       .add_flag("--only-called", options->only_called, "Build what the scene calls for and nothing else; the default")
-      .excludes(all_effects);
+      ->excludes(all_effects);
   command.add_flag("--strict", options->strict,
                    "Exit with 1 before a run that is warned of, or after one that went wrong");
   command.add_flag("--outputs-anywhere", options->outputs_anywhere,

@@ -44,14 +44,14 @@ Action set_up_try(CommandLine& command) {
                    "Run the engine's own broad-phases as well, and compare pairs, queries and least distances");
   command.add_flag("--compare", options->compare,
                    "Run the program twice, first on the engine's own, and print both times");
-  command.add_option("--margin", options->margin, "Bullet: added to all sides of each box; default: 0").type("M");
+  command.add_option("--margin", options->margin, "Bullet: added to all sides of each box; default: 0")->type_name("M");
   take_words(command,
              add_name(command, "--eager", options->eager, "Bullet: which proxies get pairs before the batch: {}"),
              "proxies", {"ghosts", "all", "none"});
   take_words(command,
              add_name(command, "--order", options->order, "Pairs come in the order of: {}; takes its time, too"),
              "order", {"engine"});
-  command.add_option("PROGRAM", options->program, "The program and its arguments, behind --").required();
+  command.add_option("PROGRAM", options->program, "The program and its arguments, behind --")->required();
   return [options] { return run_try(*options); };
 }
 
