@@ -90,8 +90,8 @@ struct Neighbours {
   std::vector<std::uint32_t> indices;
 };
 
-/// Whether each of two boxes that pair is a neighbour of the other, or only the one with the larger index of the other:
-/// then each pair is there once.
+/// Whether both boxes of a pair are listed as neighbours of each other, or only the larger index as a neighbour of the
+/// smaller one: then each pair is there once.
 enum class Directions { both, one };
 
 /// Finds every pair of boxes that overlap or touch, each exactly once, and nothing else.

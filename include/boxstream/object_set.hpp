@@ -67,8 +67,7 @@ struct KnownBounds {
 /// @par Order
 /// The order of visits depends only on the calls of this set so far. Pairs of one set are sorted by places, of the
 /// first, then of the second. With `Order::places` all queries except those for distances visit in order of places: a
-/// query then collects its hits first, and pairs of two sets are found object by object, which takes up to four times
-/// as long.
+/// query then collects its hits first, and pairs of two sets are found object by object, which takes longer.
 ///
 /// @par Errors
 /// std::bad_alloc from any call. A change has then done nothing; a query may have visited some objects.

@@ -181,8 +181,8 @@ class BOXSTREAM_API BasicWorld {
   WorldStats update();
   WorldStats update(ProxyPairFilter accept);
 
-  /// The same for callers that know what has changed: that of all pairs those in `begin` touch now, and that held ones
-  /// in `end` do not any more. Nothing is searched, and no box is read: those that have moved are searched for by the
+  /// The same for callers that know what has changed: pairs in `begin` touch now, and held ones in `end` no longer do.
+  /// No other pair has changed. Nothing is searched, and no box is read: those that have moved are searched for by the
   /// next `update`. Pairs that are held already, or are not, or of stale ids, are left out.
   WorldStats update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept);
 

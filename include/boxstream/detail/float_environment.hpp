@@ -27,8 +27,8 @@ class DefaultFloatEnvironment {
   /// to find out, false.
   static bool is_here();
 
-  /// Calls `work` in the caller's environment, which it may change. Of the flags, inexact and denormal operand may be
-  /// set already when it begins, and forgotten of what it raises: to take them back takes longer than a distance.
+  /// Calls `work` in the caller's environment, which it may change. The flags inexact and denormal operand may be set
+  /// already when it begins, and lost if it raises them: to restore them takes longer than to measure a distance.
   template <class Work>
   auto outside(Work&& work) {
     struct Back {

@@ -23,7 +23,7 @@ enum class Eager {
   /// are cast to btCollisionObject, as btGhostPairCallback does: if a call has a dispatcher, and with an own cache that
   /// has a ghost callback. If clients are other objects, use `none`; null and small integers are recognised.
   ghosts,
-  all,   ///< every proxy whose box changed: as btDbvtBroadphase does it, at the price of a query for each
+  all,   ///< every proxy whose box changed: as btDbvtBroadphase does it; each move compares the box with its neighbours
   none,  ///< no proxy; clients are never read, so they may be anything
 };
 
@@ -104,7 +104,7 @@ struct Options {
 /// @par Memory
 /// In bytes, in single (double) precision: 270 (390) a proxy and 40 a pair after shrink_to_fit, and with what batches
 /// and queries keep at most 750 (1000) and 60 where pairs last; memory of pairs that are gone goes back within ten
-/// batches.
+/// batches. While many proxies ask for pairs within their moves, some 300 more a proxy.
 ///
 /// @par Builds
 /// For the Bullet whose headers it is compiled with, 2.88 or newer; both come with the CMake targets. One program has

@@ -161,7 +161,7 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   /// With true, all pairs come in the order of registration: of the managed object, or of the objects of this manager
   /// and then of the other one. All hits of an object are then found and sorted before its first callback, even if that
-  /// ends the query. With another manager that is done for each object of this one, and takes up to four times as long.
+  /// ends the query. With another manager that is done for each object of this one, and takes longer.
   void setRegistrationOrder(bool on) {
     order_ = on ? Set::Order::places : Set::Order::any;
   }

@@ -18,9 +18,9 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 ///
 ///     btDiscreteDynamicsWorld world(&dispatcher, broadphase, new boxstream::bullet::LowFirst<>, &configuration);
 ///
-/// Bullet's own order is that in which contacts began, mixed by a sort by island. From the ground up, stacks of seven
-/// layers and more stand with contacts 0.4 to 0.75 times as deep, in whatever order their bodies were created, for 5 %
-/// of a step; heaps and what falls (1 %) differ by little more than noise: experiment S11 of the report. Works with any
+/// Bullet's own order is that in which contacts began, mixed by a sort by island. From the ground up, the contacts of
+/// high stacks are less deep, in whatever order their bodies were created; heaps and what falls differ by little more
+/// than noise: experiment S11 of the report says by how much, and what it costs. Works with any
 /// broad-phase, on one thread; the multi-threaded solvers of Bullet have an order of their own. If bodies are created
 /// from the ground up, m_deterministicOverlappingPairs does the same for nothing: see Broadphase.
 ///
