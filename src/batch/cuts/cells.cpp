@@ -59,7 +59,9 @@ HWY_INLINE void find_slabs(const V (&keys)[keys_together], const Slabs& slabs, V
 struct Reach {
   VU first[together], more[together];
 
-  HWY_INLINE Reach() {}
+  HWY_INLINE Reach() {
+    for (std::size_t k = 0; k < together; ++k) first[k] = more[k] = hn::Zero(DU());
+  }
   HWY_INLINE void find(const V (&lo)[4][together], const V (&hi)[4][together], const Slabs& slabs) {
     V keys[keys_together], found[keys_together];
     for (std::size_t k = 0; k < together; ++k) {
