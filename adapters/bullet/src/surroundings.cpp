@@ -50,7 +50,7 @@ void Surroundings::begin(std::size_t proxies) {
   index_.emplace();
   rows_.reserve(proxies);
   bounds_.reserve(proxies);
-  searches_ = questions_ = refits_ = 0;
+  searches_ = questions_ = refits_ = links_ = 0;
   idle_batches_ = 0;
 }
 
@@ -74,6 +74,7 @@ void Surroundings::note_created(Proxy& proxy, const Box& box) {
 void Surroundings::note_destroyed(Proxy& proxy) noexcept {
   Row& row = rows_[proxy.row];
   for (const std::uint32_t other : row.near) unlink(other, proxy.row);
+  links_ -= row.near.size();
   row.near.clear();
   row.held = 0;
   index_->destroy(std::exchange(row.in_index, ProxyId()));
@@ -89,6 +90,7 @@ void Surroundings::unlink(std::uint32_t at, std::uint32_t other) noexcept {
   note_not_held(row, other);
   *std::find(row.near.begin() + row.held, row.near.end(), other) = row.near.back();
   row.near.pop_back();
+  --links_;
 }
 
 void Surroundings::note_not_held(Row& row, std::uint32_t other) noexcept {
@@ -179,8 +181,10 @@ void Surroundings::find_neighbours(std::uint32_t at) {
     row.near[kept++] = other;
     kept_held += i < row.held ? 1 : 0;
   }
+  links_ -= row.near.size() - kept;
   row.near.resize(kept);
   row.held = kept_held;
+  links_ += 2 * found_.size();
   for (const std::uint32_t other : found_) {
     row.near.push_back(other);
     rows_[other].near.push_back(at);
@@ -191,6 +195,12 @@ void Surroundings::note_batch() {
   if (!are_kept()) return;
   constexpr unsigned most_idle = 64, most_failures = 8;
   if (++idle_batches_ > most_idle) return forget();
+  // A crowd at one place: refused pairs would take memory, and each link is looked for among the others.
+  constexpr std::size_t most_of_row = 256;
+  if (links_ > most_of_row * rows_.size()) {
+    failures_ = most_failures;
+    return forget();
+  }
   if (questions_ + refits_ < rows_.size() + 64) return;
   if (4 * refits_ > 3 * questions_) {
     failures_ = std::min(failures_ + 1, most_failures);
@@ -214,6 +224,9 @@ void Surroundings::validate(const std::vector<Proxy*>& live, const BasicWorld<bt
   if (!are_kept()) return;
   const boxstream::detail::DefaultFloatEnvironment environment;
   check(live.size() + free_rows_.size() == rows_.size(), "surroundings: not a row for each proxy");
+  std::size_t links = 0;
+  for (const Row& row : rows_) links += row.near.size();
+  check(links == links_, "surroundings: links are not counted");
   for (const Proxy* proxy : live) {
     const Row& row = rows_[proxy->row];
     check(row.proxy == proxy, "surroundings: the row of another");

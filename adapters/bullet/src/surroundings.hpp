@@ -59,7 +59,7 @@ class Surroundings {
   /// By the boxes that were noted.
   bool touch(const Proxy& a, const Proxy& b) const { return touch(bounds_[a.row], bounds_[b.row]); }
 
-  /// No longer kept if questions have been too few to pay for them.
+  /// No longer kept if questions have been too few to pay for them, or neighbours are too many.
   void note_batch();
   /// Gives all memory back.
   void forget() noexcept;
@@ -140,6 +140,7 @@ class Surroundings {
   std::vector<std::uint32_t> found_;
   std::uint64_t stamp_ = 0, epoch_ = 0;
   std::size_t asking_ = 0;    // rows
+  std::size_t links_ = 0;     // from a row to a neighbour
   std::size_t searches_ = 0;  // while they are not kept
   std::size_t questions_ = 0, refits_ = 0;
   unsigned idle_batches_ = 0, failures_ = 0;

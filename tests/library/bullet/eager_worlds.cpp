@@ -210,5 +210,31 @@ INSTANTIATE_TEST_SUITE_P(, BulletEagerWorlds,
                                           testing::Values(Motion::creep, Motion::fly, Motion::jump)),
                          name_of);
 
+/// So many neighbours that they are not kept.
+TEST(BulletEagerCrowd, P9_ManyAtOnePlace) {
+  boxstream::bullet::Options options;
+  options.eager = Eager::all;
+  boxstream::bullet::Broadphase subject(nullptr, options);
+  constexpr int many = 300;
+  std::vector<btBroadphaseProxy*> proxies;
+  const btVector3 size(1, 1, 1);
+  for (int i = 0; i < many; ++i)
+    proxies.push_back(subject.createProxy(btVector3(0, 0, 0), size, 0, nullptr, 1, 1, nullptr));
+  const auto& pairs = *subject.getOverlappingPairCache();
+  for (int round = 0; round < 6; ++round) {
+    for (int i = 0; i < many; ++i) {
+      const btVector3 at(btScalar(0.001) * btScalar((i + round) % 7), 0, btScalar(round == 5 ? 2 * i : 0));
+      subject.setAabb(proxies[std::size_t(i)], at, at + size, nullptr);
+    }
+    if (round < 5) {
+      ASSERT_EQ(pairs.getNumOverlappingPairs(), many * (many - 1) / 2);
+    }
+    subject.calculateOverlappingPairs(nullptr);
+    ASSERT_NO_THROW(subject.validate());
+  }
+  EXPECT_EQ(pairs.getNumOverlappingPairs(), 0);
+  for (btBroadphaseProxy* proxy : proxies) subject.destroyProxy(proxy, nullptr);
+}
+
 }  // namespace
 }  // namespace boxstream::bullet_test
