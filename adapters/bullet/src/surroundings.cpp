@@ -224,9 +224,9 @@ void Surroundings::validate(const std::vector<Proxy*>& live, const BasicWorld<bt
   if (!are_kept()) return;
   const boxstream::detail::DefaultFloatEnvironment environment;
   check(live.size() + free_rows_.size() == rows_.size(), "surroundings: not a row for each proxy");
-  std::size_t links = 0;
-  for (const Row& row : rows_) links += row.near.size();
-  check(links == links_, "surroundings: links are not counted");
+  std::size_t all_links = 0;
+  for (const Row& row : rows_) all_links += row.near.size();
+  check(all_links == links_, "surroundings: links are not counted");
   for (const Proxy* proxy : live) {
     const Row& row = rows_[proxy->row];
     check(row.proxy == proxy, "surroundings: the row of another");
