@@ -108,7 +108,6 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
   if (proxy.margin != margin || rooms.are_few()) close_rooms();
   if (rooms.are_open()) {
     rooms.note_exit(proxy);
-    proxy.differs = true;
     has_pending.store(true, std::memory_order_relaxed);
   } else {
     const Box box = box_in_world(proxy);
@@ -222,8 +221,9 @@ void Broadphase::setAabb(btBroadphaseProxy* proxy, const btVector3& aabbMin, con
   Impl& impl = *impl_;
   Proxy& moved = static_cast<Proxy&>(*proxy);
   if (moved.has_new_filter()) impl.has_new_filters = true;
-  const bool stays = impl.rooms.are_open() && impl.rooms.hold(moved, aabbMin, aabbMax) &&
-                     (!dispatcher || impl.options.exact_boxes || impl.contact_reach.is_current(moved));
+  const bool stays =
+      impl.rooms.are_open() && impl.rooms.hold(moved, aabbMin, aabbMax) &&
+      (!dispatcher || impl.options.exact_boxes || impl.contact_reach.is_current(moved, impl.rooms.shape(moved)));
   stays ? impl.move_in_room(moved, aabbMin, aabbMax, dispatcher) : impl.move(moved, aabbMin, aabbMax, dispatcher);
 }
 

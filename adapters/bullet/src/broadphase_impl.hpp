@@ -19,7 +19,7 @@
 #include "pending_changes.hpp"
 #include "proxy.hpp"
 #include "proxy_pool.hpp"
-#include "rooms.hpp"
+#include "proxy_rooms.hpp"
 #include "surroundings.hpp"
 #include "unique_ids.hpp"
 
@@ -39,10 +39,9 @@ struct Broadphase::Impl {
   void move_in_room(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
     proxy.m_aabbMin = lo;
     proxy.m_aabbMax = hi;
-    proxy.differs = true;
-    rooms.note_move();
+    rooms.note_move(proxy);
     has_pending.store(true, std::memory_order_relaxed);
-    if (proxy.is_watched && may_begin_eagerly(dispatcher)) begin_eagerly(proxy, no_box, dispatcher);
+    if (may_begin_eagerly(dispatcher) && proxy.is_watched) begin_eagerly(proxy, no_box, dispatcher);
   }
   void reset();
   void shrink_to_fit();
@@ -97,7 +96,7 @@ struct Broadphase::Impl {
   CacheSnapshot snapshot;     ///< of a borrowed cache
   WorldStats stats;
 
-  Rooms rooms;
+  ProxyRooms rooms;
   Surroundings surroundings;
   mutable bool has_new_filters = false;
 
@@ -150,8 +149,7 @@ struct Broadphase::Impl {
   /// After a batch.
   void follow_rooms();
   bool is_calm();
-  /// To follow more than a sixth of all boxes in each batch takes longer than to do without rooms.
-  std::size_t most_load() const { return 4 * live.size() / 3 + 64; }
+  RoomsChoice::Price price_of_search() const { return room_prices::search(live.size()); }
   void note_filter(Filter filter) {
     groups |= filter.group;
     shared_mask &= filter.mask;
@@ -184,12 +182,9 @@ struct Broadphase::Impl {
   std::size_t checked_since_change = 0;  ///< in quiet batches
 
   // Of rooms.
-  unsigned calm_batches = 0;  ///< in a row, in which many boxes moved and few pairs changed
-  unsigned held_batches = 0;  ///< that the present rooms have lasted
-  unsigned failures = 0;      ///< in a row
-  /// Where pairs are asked for within moves and there are neighbours to do so, rooms save less.
-  unsigned most_failures() const { return surroundings.are_kept() ? 7 : 3; }
-  unsigned few_failures = 0, few_wait = 0;  ///< the same of some proxies, and batches before the next try
+  RoomsChoice rooms_choice;                 ///< about those of all proxies
+  unsigned held_batches = 0;                ///< that the present rooms have lasted
+  unsigned few_failures = 0, few_wait = 0;  ///< of rooms of some proxies, and batches before the next try
   std::vector<Box> sampled;                 ///< of some proxies, before the last of the calm batches
 
   bool is_quiet = false;       ///< the last batches have changed nothing, and nothing has changed since

@@ -12,7 +12,7 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 Broadphase::Impl::RoomsAnswer Broadphase::Impl::ask_rooms() {
   const bool are_sound = own->user_changes().empty() && pending.empty() && is_rule_known() && !has_new_filters &&
                          !(may_refuse && has_written_filter_in_quiet());
-  if (!are_sound || !or_fatal([&] { return rooms.settle(live, most_load()); })) {
+  if (!are_sound || !or_fatal([&] { return rooms.settle(live, rooms_choice, price_of_search()); })) {
     close_rooms();
     return RoomsAnswer::unknown;
   }
@@ -27,11 +27,11 @@ Broadphase::Impl::RoomsAnswer Broadphase::Impl::ask_rooms() {
 void Broadphase::Impl::pass_on_differing() {
   if (!rooms.are_open()) return;
   for (Proxy* proxy : with_rooms()) {
-    if (!proxy->differs) continue;
+    if (!rooms.differs(*proxy)) continue;
     const Box box = box_in_world(*proxy);
     pending.move(*proxy, box);
     if (surroundings.are_kept()) surroundings.note_move(*proxy, box);
-    proxy->differs = false;
+    rooms.note_passed_on(*proxy);
   }
 }
 
@@ -49,9 +49,7 @@ void Broadphase::Impl::close_rooms() {
     few_wait = few_failures == 0 ? 0 : 1u << few_failures;
     return;
   }
-  constexpr unsigned least = 64;
-  failures = held_batches < least ? std::min(failures + 1, most_failures()) : 0;
-  calm_batches = 0;
+  rooms_choice.closed();
 }
 
 void Broadphase::Impl::follow_rooms() {
@@ -60,14 +58,10 @@ void Broadphase::Impl::follow_rooms() {
     if (!as_expected || !pending.empty() || !own->holds_worlds_pairs()) close_rooms();
     return;
   }
-  // The method of the paper searches in each step. Rooms of more proxies are beyond the caches of a step: while a pile
-  // of 8000 comes to rest, to follow them takes a quarter longer than to search.
-  constexpr std::size_t most = 4096;
-  if (options.method == Method::hybrid || live.size() > most) return;
-  constexpr unsigned least = 10;  // see `find_events`: until then memory is given back
+  if (options.method == Method::hybrid) return;  // the method of the paper searches in each step
   if (const Span<const ProxyId> moved = pending.last_moved();
       moved.size() == stats.moved && 8 * stats.moved < stats.proxies) {
-    calm_batches = 0;
+    rooms_choice.opens(live.size(), false);
     if (moved.empty() || has_pending.load(std::memory_order_relaxed) || !own->holds_worlds_pairs()) return;
     if (few_wait > 0) {
       --few_wait;
@@ -77,19 +71,15 @@ void Broadphase::Impl::follow_rooms() {
     or_fatal([&] { rooms.open_few(world, moved); });
     return;
   }
-  if (!is_calm()) {
-    calm_batches = 0;
-    return;
-  }
-  if (++calm_batches < least << failures || !own->holds_worlds_pairs()) return;
-  if (all_have_begun) flush_alone();  // see can_only_end
-  if (has_pending.load(std::memory_order_relaxed)) return;
-  calm_batches = 0;
+  const bool can_open = all_have_begun && own->holds_worlds_pairs();
+  if (!rooms_choice.opens(live.size(), is_calm() && can_open)) return;
+  flush_alone();  // see can_only_end
   held_batches = 0;
   or_fatal([&] {
     rooms.filters().clear();
     for (const Proxy* proxy : live) rooms.filters().push_back(filter_for_world(*proxy));
-    if (!rooms.open(live, own->store())) failures = std::min(failures + 1, most_failures());
+    rooms_choice.opened(live.size());
+    if (!rooms.open(live, own->store())) rooms_choice.closed();
   });
 }
 

@@ -40,8 +40,8 @@ class ContactReach {
       measure(proxy, shape, lo, hi);
   }
 
-  /// False if the shape is not the one that the size is of.
-  bool is_current(const Proxy& proxy) const { return !reads_clients_ || shape_of(proxy) == proxy.sized_shape; }
+  /// False if the shape is not the one that the size is of, `sized`.
+  bool is_current(const Proxy& proxy, const void* sized) const { return !reads_clients_ || shape_of(proxy) == sized; }
 
  private:
   /// Null if the client is not, or not yet, the object that has this proxy.

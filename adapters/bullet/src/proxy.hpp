@@ -15,30 +15,29 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 inline constexpr std::uint32_t no_link = ~std::uint32_t{0};
 
 /// A btBroadphaseProxy with the data of the adapter. In single precision, the fields that passes over all proxies read,
-/// up to `world_filter`, fill one cache line.
+/// up to `room`, fill one cache line.
 struct alignas(64) Proxy : btBroadphaseProxy {
   Proxy(const btVector3& lo, const btVector3& hi, void* client, int group, int mask)
       : btBroadphaseProxy(lo, hi, client, group, mask) {}
 
   Filter world_filter;              ///< in the World; users may write the fields of the base at any time
+  std::uint32_t room = no_link;     ///< see ProxyRooms
   ProxyId id;                       ///< null until the first flush
   std::uint32_t position = 0;       ///< in the list of live proxies
   std::uint32_t pending_index = 0;  ///< see PendingChanges
   std::uint8_t moves_until_sized = 0;
-  bool has_left_room = false;  ///< and the next: see Rooms
+  bool has_left_room = false;  ///< and the next: see ProxyRooms
   bool has_strayed = false;
-  bool is_watched : 1 = false;  ///< in bits, so that there are two cache lines
-  bool differs : 1 = false;     ///< its box from that of the World, or of the changes that this is about to get
-  bool destroyed : 1 = false;   ///< its memory is freed once the World is not busy
-  bool is_ghost : 1 = false;    ///< of checked_client
-  btScalar margin = 0;          ///< by which its box is larger in the World: see ContactReach
-  std::uint32_t row = 0;        ///< see Surroundings
+  bool is_watched : 1 = false;    ///< in bits, so that there are two cache lines
+  bool destroyed : 1 = false;     ///< its memory is freed once the World is not busy
+  bool is_ghost : 1 = false;      ///< of checked_client
+  btScalar margin = 0;            ///< by which its box is larger in the World: see ContactReach
+  std::uint32_t row = 0;          ///< see Surroundings
+  std::uint32_t links_epoch = 0;  ///< see PairLinks
   const void* checked_client = nullptr;
   const void* sized_shape = nullptr;
 
-  std::uint32_t links_epoch = 0;  ///< see PairLinks
-  std::uint32_t room = no_link;   ///< see Rooms
-  std::uint64_t created = 0;      ///< grows from proxy to proxy, also when unique ids start again
+  std::uint64_t created = 0;  ///< grows from proxy to proxy, also when unique ids start again
 
   // The list of its pairs: see PairLinks.
   std::uint32_t first_link = no_link;

@@ -108,7 +108,7 @@ void Broadphase::Impl::validate() {
     check(world.contains(proxy.id) && world.user(proxy.id) == reinterpret_cast<std::uintptr_t>(&proxy),
           "proxies: the World has another one");
     const Box box = world.box(proxy.id), given = box_in_world(proxy);
-    check(is_pending || box == given || ((rooms.are_open() && proxy.differs)) || (!is_valid(box) && !is_valid(given)),
+    check(is_pending || box == given || rooms.differs(proxy) || (!is_valid(box) && !is_valid(given)),
           "proxies: the World has another box");
   }
   check(world.size() == known + destroyed.size(), "proxies: the World has some that are gone");

@@ -16,6 +16,7 @@
 
 #include "pair_store.hpp"
 #include "proxy.hpp"
+#include "rooms_choice.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -31,7 +32,7 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 ///
 /// Rooms are in terms of what `setAabb` gets; boxes of the World are larger by `Proxy::margin`. They are integers that
 /// compare as the numbers do, so that neither the floating-point environment nor a NaN matters.
-class Rooms {
+class ProxyRooms {
  public:
   using Box = BasicAabb<btScalar>;
   using World = BasicWorld<btScalar>;
@@ -53,10 +54,17 @@ class Rooms {
     return in;
   }
 
+  /// The shape that the size of an open room's proxy is of, see ContactReach.
+  const void* shape(const Proxy& proxy) const { return rooms_[proxy.room].shape; }
+  /// True if its box differs from that of the World, or of the changes that this is about to get.
+  bool differs(const Proxy& proxy) const { return proxy.room < rooms_.size() && rooms_[proxy.room].differs; }
+  void note_passed_on(const Proxy& proxy) { rooms_[proxy.room].differs = false; }
+
   /// Its box has been set to one in its room, or outside of it.
-  void note_move() { any_moved_ = true; }
+  void note_move(const Proxy& proxy) { rooms_[proxy.room].differs = any_moved_ = true; }
   void note_exit(Proxy& proxy) {
-    any_moved_ = true;
+    note_move(proxy);
+    rooms_[proxy.room].shape = proxy.sized_shape;
     // There is room for each once: see open.
     if (!std::exchange(proxy.has_left_room, true)) exited_.push_back(proxy.position);
     if (!proxy.has_strayed && !is_near(proxy)) {
@@ -75,9 +83,8 @@ class Rooms {
   bool open_few(World& world, Span<const ProxyId> moved);
 
   /// Finds the pairs that begin and end by what has moved since `open` or the last call. False if that is too much to
-  /// follow: rooms have to be closed. `most_load`: of boxes that leave their rooms in eight batches, in the mean; one
-  /// that leaves its fat box counts as nine.
-  bool settle(const Proxies& live, std::size_t most_load);
+  /// follow, by the price of a search: rooms have to be closed.
+  bool settle(const Proxies& live, RoomsChoice& choice, RoomsChoice::Price search);
   const std::vector<ProxyPair>& begun() const { return begun_; }
   const std::vector<ProxyPair>& ended() const { return ended_; }
 
@@ -92,7 +99,8 @@ class Rooms {
     for (std::uint32_t i = 0; i < looked_at; ++i) {
       const Candidate candidate = candidates_[row.first + i];
       if (candidate.is_held) continue;
-      if (Proxy& other = *live[candidate.other]; touch(proxy, other)) visit(other);
+      Proxy& other = *live[candidate.other];
+      if (touch(proxy, other, proxy.margin != 0 || other.margin != 0)) visit(other);
     }
   }
   /// Outside of a batch: candidates that are held from now on.
@@ -138,8 +146,29 @@ class Rooms {
       span = Bits(high) - Bits(low);
     }
   };
-  struct Room {
+  /// With what else `setAabb` reads of a proxy beyond its first cache line.
+  struct alignas(64) Room {
     Range min[3], max[3];
+    const void* shape;
+    btScalar margin;
+    bool differs;
+
+    // What bounds the box of the World from below bounds the given one by so much more, or less, than the margin:
+    // rounded to the safe side, as sums are rounded too.
+    void raise_min(int d, btScalar bound, const Proxy& of) { raise(min[d], bound, margin, of.m_aabbMin.m_floats[d]); }
+    void lower_min(int d, btScalar bound, const Proxy& of) { lower(min[d], bound, margin, of.m_aabbMin.m_floats[d]); }
+    void raise_max(int d, btScalar bound, const Proxy& of) { raise(max[d], bound, -margin, of.m_aabbMax.m_floats[d]); }
+    void lower_max(int d, btScalar bound, const Proxy& of) { lower(max[d], bound, -margin, of.m_aabbMax.m_floats[d]); }
+
+   private:
+    static void raise(Range& range, btScalar bound, btScalar shift, btScalar present) {
+      const Key low = shift == 0 ? key(bound) : key(bound + shift) + 1;
+      if (low > range.low()) range.set(low, range.high(), present);
+    }
+    static void lower(Range& range, btScalar bound, btScalar shift, btScalar present) {
+      const Key high = shift == 0 ? key(bound) : key(bound + shift) - 1;
+      if (high < range.high()) range.set(range.low(), high, present);
+    }
   };
   struct Candidate {
     std::uint32_t other : 30, is_watched : 1, is_held : 1;
@@ -149,7 +178,7 @@ class Rooms {
   };
   struct Watched {
     const Proxy *a, *b;
-    bool is_held;
+    bool is_held, has_margin;
   };
 
   /// As given, but for a margin.
@@ -157,13 +186,18 @@ class Rooms {
     const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
     return proxy.margin == 0 ? box : grown(box, proxy.margin);
   }
+  /// The same where there is a room, without a look at more of the proxy.
+  Box box_in_room(const Proxy& proxy) const {
+    const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
+    const btScalar margin = rooms_[proxy.room].margin;
+    return margin == 0 ? box : grown(box, margin);
+  }
   bool is_near(const Proxy& proxy) const;
   static Box grown(const Box& box, btScalar margin);
-  static bool touch(const Proxy& a, const Proxy& b);
+  static bool touch(const Proxy& a, const Proxy& b, bool has_margin);
+  Room& add_room(Proxy& proxy);
   static Box fat_box(const Box& box, btScalar went);
   void start_room(const Proxy& proxy, const Box& box);
-  void raise(const Proxy& proxy, bool is_max, int axis, btScalar bound);
-  void lower(const Proxy& proxy, bool is_max, int axis, btScalar bound);
   bool part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch);
   void watch(Proxy& a, Proxy& b, bool is_held);
   void flip(const Proxy& a, const Proxy& b, bool is_held);
@@ -188,7 +222,7 @@ class Rooms {
   std::vector<std::uint32_t> strayed_;  // those that may have left their fat boxes
   std::vector<ProxyPair> begun_, ended_;
   bool any_moved_ = false;
-  std::size_t load_ = 0;
+  std::size_t refits_ = 0;            // of fat boxes, since the last batch
   std::optional<Detector> detector_;  // made when there is something for it to do
   std::vector<Pair> found_;
   std::vector<Box> boxes_;  // asked for: of all, or of those that have strayed

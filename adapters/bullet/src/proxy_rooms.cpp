@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rooms.hpp"
+#include "proxy_rooms.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
-using Box = Rooms::Box;
+using Box = ProxyRooms::Box;
 
 constexpr btScalar largest = btScalar(1e18);
 
@@ -45,13 +45,13 @@ btScalar usual_margin(const Box& box) {
 
 }  // namespace
 
-Box Rooms::grown(const Box& box, btScalar margin) {
+Box ProxyRooms::grown(const Box& box, btScalar margin) {
   return PendingChanges::grown(box, margin);
 }
 
 /// Of valid boxes. Without branches: of watched ones the outcome is hard to predict.
-bool Rooms::touch(const Proxy& a, const Proxy& b) {
-  if (a.margin != 0 || b.margin != 0) return overlaps(box_of_world(a), box_of_world(b));
+bool ProxyRooms::touch(const Proxy& a, const Proxy& b, bool has_margin) {
+  if (has_margin) return overlaps(box_of_world(a), box_of_world(b));
   bool touch = true;
   for (int d = 0; d < 3; ++d)
     touch = touch & (a.m_aabbMin.m_floats[d] <= b.m_aabbMax.m_floats[d]) &
@@ -60,14 +60,23 @@ bool Rooms::touch(const Proxy& a, const Proxy& b) {
 }
 
 /// `went` is how far it came since the last one.
-Box Rooms::fat_box(const Box& box, btScalar went) {
+Box ProxyRooms::fat_box(const Box& box, btScalar went) {
   if (!is_moderate(box)) return box;
   const btScalar usual = usual_margin(box);
   return expanded(box, std::max(usual, std::min(2 * went, 4 * usual)));
 }
 
+ProxyRooms::Room& ProxyRooms::add_room(Proxy& proxy) {
+  proxy.room = std::uint32_t(rooms_.size());
+  Room& room = rooms_.emplace_back();
+  room.shape = proxy.sized_shape;
+  room.margin = proxy.margin;
+  room.differs = false;
+  return room;
+}
+
 /// As wide as the fat box, but on one side of zero. Boxes too far out to compute with have no more than their place.
-void Rooms::start_room(const Proxy& proxy, const Box& box) {
+void ProxyRooms::start_room(const Proxy& proxy, const Box& box) {
   Room& room = rooms_[proxy.room];
   const Box& fat = fat_boxes_[proxy.position];
   const bool is_near = is_moderate(box);
@@ -81,42 +90,26 @@ void Rooms::start_room(const Proxy& proxy, const Box& box) {
     room.min[d].start(low);
     room.max[d].start(high);
     const btScalar center = between(box.min[d], box.max[d]);
-    raise(proxy, false, d, fat.min[d]);
-    lower(proxy, false, d, center);
-    raise(proxy, true, d, center);
-    lower(proxy, true, d, fat.max[d]);
+    room.raise_min(d, fat.min[d], proxy);
+    room.lower_min(d, center, proxy);
+    room.raise_max(d, center, proxy);
+    room.lower_max(d, fat.max[d], proxy);
   }
 }
 
-// What bounds the box of the World from below bounds the given one by so much more, or less, than the margin: rounded
-// to the safe side, as sums are rounded too.
-
-void Rooms::raise(const Proxy& proxy, bool is_max, int axis, btScalar bound) {
-  Range& range = (is_max ? rooms_[proxy.room].max : rooms_[proxy.room].min)[axis];
-  const btScalar shift = is_max ? -proxy.margin : proxy.margin;
-  const Key low = shift == 0 ? key(bound) : key(bound + shift) + 1;
-  if (low > range.low()) range.set(low, range.high(), (is_max ? proxy.m_aabbMax : proxy.m_aabbMin).m_floats[axis]);
-}
-
-void Rooms::lower(const Proxy& proxy, bool is_max, int axis, btScalar bound) {
-  Range& range = (is_max ? rooms_[proxy.room].max : rooms_[proxy.room].min)[axis];
-  const btScalar shift = is_max ? -proxy.margin : proxy.margin;
-  const Key high = shift == 0 ? key(bound) : key(bound + shift) - 1;
-  if (high < range.high()) range.set(range.low(), high, (is_max ? proxy.m_aabbMax : proxy.m_aabbMin).m_floats[axis]);
-}
-
 /// Shares what keeps the verdict about two boxes between their rooms. False if that is too little.
-bool Rooms::part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch) {
-  const btScalar least = std::min(usual_margin(box_a), usual_margin(box_b)) / 8;
+bool ProxyRooms::part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch) {
+  const btScalar least = std::min(usual_margin(box_a), usual_margin(box_b)) / 4;
+  Room &room_a = rooms_[a.room], &room_b = rooms_[b.room];
   if (touch) {
     for (int d = 0; d < 3; ++d)
       if (box_b.max[d] - box_a.min[d] < least || box_a.max[d] - box_b.min[d] < least) return false;
     for (int d = 0; d < 3; ++d) {
       const btScalar one = between(box_a.min[d], box_b.max[d]), other = between(box_b.min[d], box_a.max[d]);
-      lower(a, false, d, one);
-      raise(b, true, d, one);
-      raise(a, true, d, other);
-      lower(b, false, d, other);
+      room_a.lower_min(d, one, a);
+      room_b.raise_max(d, one, b);
+      room_a.raise_max(d, other, a);
+      room_b.lower_min(d, other, b);
     }
     return true;
   }
@@ -136,13 +129,12 @@ bool Rooms::part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& bo
   btScalar end = between(low, high);
   if (!(end < high)) end = low;
   const btScalar begin = number(key(end) + 1);
-  const Proxy &below = a_is_below ? a : b, &above = a_is_below ? b : a;
-  lower(below, true, axis, end);
-  raise(above, false, axis, begin);
+  (a_is_below ? room_a : room_b).lower_max(axis, end, a_is_below ? a : b);
+  (a_is_below ? room_b : room_a).raise_min(axis, begin, a_is_below ? b : a);
   return true;
 }
 
-void Rooms::watch(Proxy& a, Proxy& b, bool is_held) {
+void ProxyRooms::watch(Proxy& a, Proxy& b, bool is_held) {
   const auto put_first = [&](const Proxy& of, const Proxy& other) {
     Candidate* const candidate = find(of.position, other.position);
     candidate->is_watched = 1;
@@ -152,22 +144,22 @@ void Rooms::watch(Proxy& a, Proxy& b, bool is_held) {
   put_first(a, b);
   put_first(b, a);
   a.is_watched = b.is_watched = true;
-  watched_.push_back({&a, &b, is_held});
+  watched_.push_back({&a, &b, is_held, a.margin != 0 || b.margin != 0});
 }
 
-void Rooms::flip(const Proxy& a, const Proxy& b, bool is_held) {
+void ProxyRooms::flip(const Proxy& a, const Proxy& b, bool is_held) {
   find(a.position, b.position)->is_held = find(b.position, a.position)->is_held = is_held ? 1 : 0;
   (is_held ? begun_ : ended_).push_back({a.id, b.id});
 }
 
-Rooms::Candidate* Rooms::find(std::uint32_t of, std::uint32_t other) {
+ProxyRooms::Candidate* ProxyRooms::find(std::uint32_t of, std::uint32_t other) {
   const Row& row = rows_[of];
   Candidate* const first = candidates_.data() + row.first;
   Candidate* const found = std::find_if(first, first + row.size, [&](Candidate c) { return c.other == other; });
   return found == first + row.size ? nullptr : found;
 }
 
-void Rooms::add(std::uint32_t of, std::uint32_t other, bool held) {
+void ProxyRooms::add(std::uint32_t of, std::uint32_t other, bool held) {
   Row& row = rows_[of];
   if (row.size == row.room) {  // goes behind all others
     const std::size_t first = candidates_.size(), room = 2 * std::size_t(row.room) + 4;
@@ -179,14 +171,14 @@ void Rooms::add(std::uint32_t of, std::uint32_t other, bool held) {
   candidates_[row.first + row.size++] = {other, 0, held ? 1u : 0u};
 }
 
-void Rooms::drop(std::uint32_t of, std::uint32_t other) {
+void ProxyRooms::drop(std::uint32_t of, std::uint32_t other) {
   Candidate* const place = find(of, other);
   Row& row = rows_[of];
   *place = candidates_[row.first + row.size - 1];
   --row.size;
 }
 
-bool Rooms::open(const Proxies& live, PairStore& pairs) {
+bool ProxyRooms::open(const Proxies& live, PairStore& pairs) {
   const boxstream::detail::DefaultFloatEnvironment environment;
   const std::size_t count = live.size();
   if (count >= std::size_t{1} << 30) return false;
@@ -221,10 +213,10 @@ bool Rooms::open(const Proxies& live, PairStore& pairs) {
   watched_.clear();
   exited_.reserve(count);
   strayed_.reserve(count);
-  rooms_.resize(count);
+  rooms_.reserve(count);
   boxes_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    live[i]->room = std::uint32_t(i);
+    add_room(*live[i]);
     start_room(*live[i], boxes_[i] = box_of_world(*live[i]));
   }
   for (const Pair& pair : found_) {
@@ -239,12 +231,12 @@ bool Rooms::open(const Proxies& live, PairStore& pairs) {
     if (!part(a, boxes_[pair.a], b, boxes_[pair.b], touch)) watch(a, b, touch);
   }
   any_moved_ = false;
-  load_ = 0;
+  refits_ = 0;
   return true;
 }
 
 /// A new fat box. Candidates that it does not touch go, but for those that are held: these may have to end.
-bool Rooms::refit(const Proxy& proxy) {
+bool ProxyRooms::refit(const Proxy& proxy) {
   const std::uint32_t position = proxy.position;
   const Box box = box_of_world(proxy), last = fat_boxes_[position];
   if (!is_moderate(box) || !is_moderate(last)) return false;
@@ -266,14 +258,14 @@ bool Rooms::refit(const Proxy& proxy) {
 }
 
 /// Where their fat boxes touch and they are not known as candidates yet.
-void Rooms::add_candidates(std::uint32_t position, std::uint32_t other) {
+void ProxyRooms::add_candidates(std::uint32_t position, std::uint32_t other) {
   if (other == position || find(position, other) != nullptr) return;
   add(position, other, false);
   add(other, position, false);
 }
 
-/// False if one is too far out to follow, or many boxes leave their rooms or their fat boxes in each batch.
-bool Rooms::refit_strayed(const Proxies& live) {
+/// False if one is too far out to follow, or there are too many candidates.
+bool ProxyRooms::refit_strayed(const Proxies& live) {
   std::size_t count = 0;
   for (const std::uint32_t position : strayed_) {
     Proxy& proxy = *live[position];
@@ -283,7 +275,7 @@ bool Rooms::refit_strayed(const Proxies& live) {
     strayed_[count++] = position;
   }
   strayed_.resize(count);
-  load_ += 8 * count;
+  refits_ += count;
   constexpr std::size_t few = 2;
   if (count <= few) {  // a look at all is less than a batch
     for (const std::uint32_t position : strayed_)
@@ -305,13 +297,13 @@ bool Rooms::refit_strayed(const Proxies& live) {
   return candidates_.size() < 64 * live.size() + (std::size_t{1} << 16);
 }
 
-bool Rooms::come_near(const Proxies& live) {
+bool ProxyRooms::come_near(const Proxies& live) {
   if (strayed_.empty()) return true;
   const boxstream::detail::DefaultFloatEnvironment environment;
   return refit_strayed(live);
 }
 
-bool Rooms::open_few(World& world, Span<const ProxyId> moved) {
+bool ProxyRooms::open_few(World& world, Span<const ProxyId> moved) {
   const boxstream::detail::DefaultFloatEnvironment environment;
   for (const ProxyId id : moved) {
     Box outer, inner;
@@ -320,32 +312,31 @@ bool Rooms::open_few(World& world, Span<const ProxyId> moved) {
       close(few_);
       return false;
     }
-    proxy->room = std::uint32_t(rooms_.size());
-    rooms_.emplace_back();
+    Room& room = add_room(*proxy);
     few_.push_back(proxy);
     for (int d = 0; d < 3; ++d) {
-      rooms_.back().min[d].start(proxy->m_aabbMin.m_floats[d]);
-      rooms_.back().max[d].start(proxy->m_aabbMax.m_floats[d]);
-      raise(*proxy, false, d, outer.min[d]);
-      lower(*proxy, false, d, inner.min[d]);
-      raise(*proxy, true, d, inner.max[d]);
-      lower(*proxy, true, d, outer.max[d]);
+      room.min[d].start(proxy->m_aabbMin.m_floats[d]);
+      room.max[d].start(proxy->m_aabbMax.m_floats[d]);
+      room.raise_min(d, outer.min[d], *proxy);
+      room.lower_min(d, inner.min[d], *proxy);
+      room.raise_max(d, inner.max[d], *proxy);
+      room.lower_max(d, outer.max[d], *proxy);
     }
   }
   return are_open();
 }
 
-bool Rooms::settle(const Proxies& live, std::size_t most_load) {
+bool ProxyRooms::settle(const Proxies& live, RoomsChoice& choice, RoomsChoice::Price search) {
   begun_.clear();
   ended_.clear();
   if (!std::exchange(any_moved_, false) || are_few()) return true;
   const boxstream::detail::DefaultFloatEnvironment environment;
-  const std::size_t count = live.size();
-  load_ += exited_.size() - load_ / 8;  // to eight times what leaves rooms in a batch
-  if (load_ > most_load || watched_.size() > 4 * count + 64 || !refit_strayed(live)) return false;
+  const std::size_t strays = std::exchange(refits_, 0) + strayed_.size();
+  if (!choice.go_on(watched_.size(), exited_.size(), strays, search) || !refit_strayed(live)) return false;
+  refits_ = 0;
   for (const std::uint32_t position : exited_) {
     Proxy& proxy = *live[position];
-    const Box box = box_of_world(proxy);
+    const Box box = box_in_room(proxy);
     proxy.has_left_room = false;
     start_room(proxy, box);
     const Row& row = rows_[position];
@@ -353,7 +344,7 @@ bool Rooms::settle(const Proxies& live, std::size_t most_load) {
       const Candidate candidate = candidates_[row.first + i];
       if (candidate.is_watched) continue;
       Proxy& other = *live[candidate.other];
-      const Box beside = box_of_world(other);
+      const Box beside = box_in_room(other);
       const bool touch = overlaps(box, beside);
       if (touch != (candidate.is_held != 0)) flip(proxy, other, touch);
       if (!part(proxy, box, other, beside, touch)) watch(proxy, other, touch);
@@ -361,7 +352,7 @@ bool Rooms::settle(const Proxies& live, std::size_t most_load) {
   }
   exited_.clear();
   for (Watched& watched : watched_) {
-    const bool do_touch = touch(*watched.a, *watched.b);
+    const bool do_touch = touch(*watched.a, *watched.b, watched.has_margin);
     if (do_touch == watched.is_held) continue;
     flip(*watched.a, *watched.b, do_touch);
     watched.is_held = do_touch;
@@ -369,13 +360,13 @@ bool Rooms::settle(const Proxies& live, std::size_t most_load) {
   return true;
 }
 
-bool Rooms::is_near(const Proxy& proxy) const {
+bool ProxyRooms::is_near(const Proxy& proxy) const {
   const boxstream::detail::DefaultFloatEnvironment environment;
-  const Box box = box_of_world(proxy);
+  const Box box = box_in_room(proxy);
   return is_valid(box) && contains(fat_boxes_[proxy.position], box);
 }
 
-void Rooms::note_begun(const Proxy& a, const Proxy& b) {
+void ProxyRooms::note_begun(const Proxy& a, const Proxy& b) {
   Candidate& candidate = *find(a.position, b.position);
   candidate.is_held = find(b.position, a.position)->is_held = 1;
   if (!candidate.is_watched) return;
@@ -383,7 +374,7 @@ void Rooms::note_begun(const Proxy& a, const Proxy& b) {
     if ((watched.a == &a && watched.b == &b) || (watched.a == &b && watched.b == &a)) watched.is_held = true;
 }
 
-void Rooms::close(const Proxies& live) noexcept {
+void ProxyRooms::close(const Proxies& live) noexcept {
   for (Proxy* proxy : are_few() ? few_ : live) {
     proxy->room = no_link;
     proxy->has_left_room = proxy->has_strayed = proxy->is_watched = false;
@@ -395,14 +386,14 @@ void Rooms::close(const Proxies& live) noexcept {
   watched_.clear();
 }
 
-void Rooms::give_back() noexcept {
+void ProxyRooms::give_back() noexcept {
   const auto drop = [](auto&... vectors) { (std::remove_reference_t<decltype(vectors)>().swap(vectors), ...); };
   detector_.reset();
   drop(found_, rooms_, few_, fat_boxes_, filters_, rows_, candidates_, watched_, exited_, strayed_, begun_, ended_,
        boxes_, asked_);
 }
 
-void Rooms::validate(const Proxies& live, const World& world) const {
+void ProxyRooms::validate(const Proxies& live, const World& world) const {
   const auto check = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
   };
@@ -411,9 +402,9 @@ void Rooms::validate(const Proxies& live, const World& world) const {
   check(rooms_.size() == (are_few() ? few_ : live).size(), "rooms: not one for each proxy");
   for (const Proxy* proxy : live) {
     const Box box = world.box(proxy->id), given = box_of_world(*proxy);
-    check(proxy->differs || box == given || !is_valid(given), "rooms: a box that the World does not have");
+    check(differs(*proxy) || box == given || !is_valid(given), "rooms: a box that the World does not have");
     check(are_few() || hold(*proxy, proxy->m_aabbMin, proxy->m_aabbMax) || proxy->has_left_room ||
-              !is_moderate(given) || !proxy->differs,
+              !is_moderate(given) || !differs(*proxy),
           "rooms: a box that has left is not noted");
   }
   if (any_moved_) return;  // until it is settled
