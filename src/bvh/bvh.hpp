@@ -182,6 +182,7 @@ class Bvh {
   std::vector<std::uint32_t> slot_at_;
   std::vector<std::uint32_t> place_;
   std::vector<std::uint32_t> tail_holes_;  // places in the tail that boxes have left: new ones take them
+  std::uint32_t last_left_ = none;         // a place in the tree that a box has left, and perhaps another has taken
   bool was_rebuilt_ = false;               // by the last refresh
   std::size_t tree_size_ = 0;              // places in the tree, a multiple of the block width
 

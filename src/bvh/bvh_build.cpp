@@ -331,7 +331,9 @@ std::uint32_t Bvh<S>::find_home(const Box& box) const {
 
 template <class S>
 void Bvh<S>::put(std::uint32_t slot, const Box& box) noexcept {
-  const std::uint32_t place = find_home(box);
+  // What comes back is often what has gone.
+  const bool was_left = last_left_ < tree_size_ && slot_at_[last_left_] == none;
+  const std::uint32_t place = was_left && !is_far(last_left_ / Block::width, box) ? last_left_ : find_home(box);
   if (place == none) return append(slot, box);
   put_at(place, slot, box);
 }
@@ -377,6 +379,7 @@ void Bvh<S>::leave(std::uint32_t slot) noexcept {
   }
   dirty_[leaf / 64] |= std::uint64_t{1} << leaf % 64;
   ++free_lanes_[leaf];
+  last_left_ = place;
 }
 
 /// So that walks have nothing to do with places that all boxes have left.
