@@ -199,6 +199,7 @@ class ProxyRooms {
   static Box fat_box(const Box& box, btScalar went);
   void start_room(const Proxy& proxy, const Box& box);
   bool part(const Proxy& a, const Box& box_a, const Proxy& b, const Box& box_b, bool touch);
+  btScalar least_clearance(const Box& a, const Box& b) const;
   void watch(Proxy& a, Proxy& b, bool is_held);
   void flip(const Proxy& a, const Proxy& b, bool is_held);
   bool refit(const Proxy& proxy);
@@ -222,6 +223,7 @@ class ProxyRooms {
   std::vector<std::uint32_t> strayed_;  // those that may have left their fat boxes
   std::vector<ProxyPair> begun_, ended_;
   bool any_moved_ = false;
+  bool has_close_pairs_ = false;      // see least_clearance
   std::size_t refits_ = 0;            // of fat boxes, since the last batch
   std::optional<Detector> detector_;  // made when there is something for it to do
   std::vector<Pair> found_;
