@@ -10,20 +10,13 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "pending_changes.hpp"
+#include "usual_margin.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 using Box = ProxyRooms::Box;
-
-constexpr btScalar largest = btScalar(1e18);
-
-bool is_moderate(const Box& box) {
-  bool is = true;
-  for (int d = 0; d < 3; ++d) is = is && -largest < box.min[d] && box.min[d] <= box.max[d] && box.max[d] < largest;
-  return is;
-}
 
 btScalar between(btScalar low, btScalar high) {
   return std::min(std::max((low + high) / 2, low), high);
@@ -33,15 +26,6 @@ bool contains(const Box& outer, const Box& inner) {
   bool in = true;
   for (int d = 0; d < 3; ++d) in = in && outer.min[d] <= inner.min[d] && inner.max[d] <= outer.max[d];
   return in;
-}
-
-btScalar usual_margin(const Box& box) {
-  btScalar least = largest, most = 0;
-  for (int d = 0; d < 3; ++d) {
-    least = std::min(least, box.max[d] - box.min[d]);
-    most = std::max(most, box.max[d] - box.min[d]);
-  }
-  return std::max(least / 8, most / 64);
 }
 
 /// How far two boxes may move towards the other verdict.
@@ -113,8 +97,7 @@ bool ProxyRooms::part(const Proxy& a, const Box& box_a, const Proxy& b, const Bo
   const btScalar least = least_clearance(box_a, box_b);
   Room &room_a = rooms_[a.room], &room_b = rooms_[b.room];
   if (touch) {
-    for (int d = 0; d < 3; ++d)
-      if (box_b.max[d] - box_a.min[d] < least || box_a.max[d] - box_b.min[d] < least) return false;
+    if (clearance(box_a, box_b, touch) < least) return false;
     for (int d = 0; d < 3; ++d) {
       const btScalar one = between(box_a.min[d], box_b.max[d]), other = between(box_b.min[d], box_a.max[d]);
       room_a.lower_min(d, one, a);

@@ -7,29 +7,18 @@
 #include <type_traits>
 #include <utility>
 
+#include "usual_margin.hpp"
+
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
 using Box = Surroundings::Box;
 
-constexpr btScalar largest = btScalar(1e18);
-
-bool is_moderate(const Box& box) {
-  bool is = true;
-  for (int d = 0; d < 3; ++d) is = is && -largest < box.min[d] && box.min[d] <= box.max[d] && box.max[d] < largest;
-  return is;
-}
-
 /// Wider on all sides by an eighth of its least side, and on those to which it goes by up to half of it: `went` is how
 /// far it came since the last one.
 Box fat_box(const Box& box, const btScalar (&went)[3]) {
-  btScalar least = largest, most = 0;
-  for (int d = 0; d < 3; ++d) {
-    least = std::min(least, box.max[d] - box.min[d]);
-    most = std::max(most, box.max[d] - box.min[d]);
-  }
-  const btScalar usual = std::max(least / 8, most / 64);
+  const btScalar usual = usual_margin(box);
   Box fat = expanded(box, usual);
   for (int d = 0; d < 3; ++d) {
     const btScalar lead = 2 * went[d];
