@@ -23,18 +23,18 @@ struct CachePairs {
   Entry operator[](std::size_t i) const { return {pairs[i].m_pProxy0, pairs[i].m_pProxy1}; }
 };
 
-bool comes_before(const Entry& x, const Entry& y) {
+bool precedes(const Entry& x, const Entry& y) {
   return pair_key(*x.first, *x.second) < pair_key(*y.first, *y.second);
 }
 
 /// Removes common elements from both.
 void keep_differences(std::vector<Entry>& x, std::vector<Entry>& y) {
-  std::sort(x.begin(), x.end(), comes_before);
-  std::sort(y.begin(), y.end(), comes_before);
+  std::sort(x.begin(), x.end(), precedes);
+  std::sort(y.begin(), y.end(), precedes);
   std::vector<Entry> only_x;
-  std::set_difference(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(only_x), comes_before);
+  std::set_difference(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(only_x), precedes);
   std::vector<Entry> only_y;
-  std::set_difference(y.begin(), y.end(), x.begin(), x.end(), std::back_inserter(only_y), comes_before);
+  std::set_difference(y.begin(), y.end(), x.begin(), x.end(), std::back_inserter(only_y), precedes);
   x.swap(only_x);
   y.swap(only_y);
 }
