@@ -119,6 +119,11 @@ Object& asker(const Aabb& box, float away) {
   return object;
 }
 
+/// As an answer to compare. One object alone has no distance.
+std::uint64_t rounded(double least, double unit) {
+  return least < 1e9 ? static_cast<std::uint64_t>(least / unit) : ~std::uint64_t{0};
+}
+
 std::uint64_t collide_one(Keeper& keeper, const CliffScene& scene) {
   std::uint64_t found = 0;
   static_cast<ManagerKeeper&>(keeper).manager->collide(&asker(scene.at(1, ++keeper.turn * 7 % scene.size()), 0.1f),
@@ -130,20 +135,20 @@ std::uint64_t distance_one(Keeper& keeper, const CliffScene& scene) {
   double least = 1e300;
   static_cast<ManagerKeeper&>(keeper).manager->distance(&asker(scene.at(1, ++keeper.turn * 7 % scene.size()), 1.5f),
                                                         &least, least_distance);
-  return static_cast<std::uint64_t>(least * 1e6);
+  return rounded(least, 1e-6);
 }
 
 std::uint64_t distance_far(Keeper& keeper, const CliffScene& scene) {
   double least = 1e300;
   static_cast<ManagerKeeper&>(keeper).manager->distance(&asker(scene.at(0, ++keeper.turn * 7 % scene.size()), -1000.f),
                                                         &least, least_distance);
-  return static_cast<std::uint64_t>(least * 1e3);
+  return rounded(least, 1e-3);
 }
 
 std::uint64_t distance_self(Keeper& keeper, const CliffScene&) {
   double least = 1e300;
   static_cast<ManagerKeeper&>(keeper).manager->distance(&least, least_distance);
-  return static_cast<std::uint64_t>(least * 1e6);
+  return rounded(least, 1e-6);
 }
 
 std::uint64_t collide_two(Keeper& keeper, const CliffScene& scene) {
@@ -157,7 +162,7 @@ std::uint64_t distance_two(Keeper& keeper, const CliffScene& scene) {
   auto& mine = static_cast<ManagerKeeper&>(keeper);
   double least = 1e300;
   mine.manager->distance(mine.quarter(scene), &least, least_distance);
-  return static_cast<std::uint64_t>(least * 1e6);
+  return rounded(least, 1e-6);
 }
 
 std::uint64_t out_in_ask(Keeper& keeper, const CliffScene& scene) {
