@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,10 @@ class Bvh {
   void begin_build(bool with_room = false);
   template <class BoxOf>
   bool build_part(std::uint64_t work, BoxOf&& box_of);
+  /// Of all parts of so many boxes together: six for each to be collected and put in place, and one for each halving.
+  static std::uint64_t work_of_build(std::size_t boxes) {
+    return boxes * std::uint64_t{6 + static_cast<unsigned>(std::bit_width(boxes / Block::width))};
+  }
 
   /// Number of boxes that a refresh would sort into a new tree: all if a rebuild is likely, else none. `recent` is the
   /// number of changes that the caller knows of; refits are not counted.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -23,7 +24,8 @@ class LazyIndex {
   }
 
   void mark(std::uint32_t slot) noexcept {
-    if (bvh_ || next_) mark_kept(slot);
+    if (bvh_) bvh_->mark(slot);
+    if (next_) next_->mark(slot);
     asked_.store(0, std::memory_order_relaxed);
   }
 
@@ -31,6 +33,8 @@ class LazyIndex {
   void release() noexcept {
     bvh_.reset();
     next_.reset();
+    spent_ = lost_ = 0;
+    hurried_ = 0;
     asked_.store(0, std::memory_order_relaxed);
   }
 
@@ -38,7 +42,8 @@ class LazyIndex {
     if (asked_.load(std::memory_order_acquire) != fresh_now) {
       const std::lock_guard lock(refreshing_);
       if (asked_.load(std::memory_order_relaxed) != fresh_now) {
-        if (is_worth_finishing() && !is_ready(0)) build_part(proxies, ~std::uint64_t{0});
+        if (next_ && !is_worth_finishing()) give_up_next();
+        if (next_ && !is_ready(0)) build_part(proxies, ~std::uint64_t{0}, 0);
         if (!bvh_) mark_all(proxies.slots());
         bvh_->refresh(box_of(proxies));
         asked_.store(fresh_now, std::memory_order_release);
@@ -65,30 +70,47 @@ class LazyIndex {
   bool is_worn() const { return next_ || bvh_->is_worn(); }
 
   /// Builds a part of a new tree, beside what is there. True once it is in place; a query before that does what is
-  /// left, if it cannot do with what is there. For `work` see Bvh::build_part. Not for concurrent use.
-  bool build_part(const ProxyTable<S>& proxies, std::uint64_t work) const {
-    if (!is_worth_finishing()) {
+  /// left, if it cannot do with what is there. For `work` see Bvh::build_part. Not for concurrent use. The new tree has
+  /// what was marked meanwhile still to take in, even if the one before it was fresh.
+  ///
+  /// Once so much has been spent on trees that changes overtook that it would have made one, the parts become as large
+  /// as it takes to be in time with `recent` changes at each call. Twice as much has to be spent before the next time,
+  /// for where boxes jump such a tree does not last.
+  bool build_part(const ProxyTable<S>& proxies, std::uint64_t work, std::size_t recent) const {
+    const std::uint64_t whole = Bvh<S>::work_of_build(proxies.slots());
+    if (next_ && !is_worth_finishing()) give_up_next();
+    if (!next_) {
       auto next = std::make_unique<Bvh<S>>();
       next->reserve_slots(proxies.slots());
       next->begin_build(bvh_ && bvh_->lacks_room());
       next_ = std::move(next);
     }
+    const bool hurries = lost_ >= whole << hurried_;
+    if (hurries) work = std::max(work, whole / calls_to_finish(recent));
+    spent_ += std::min(work, whole);
     if (!next_->build_part(work, box_of(proxies))) return false;
     bvh_ = std::move(next_);
     bvh_->drop_scratch();
+    asked_.store(0, std::memory_order_relaxed);
+    lost_ = spent_ = 0;
+    hurried_ = hurries ? std::min(hurried_ + 1, most_hurried) : 0;
     return true;
   }
 
  private:
   static constexpr std::uint32_t fresh_now = ~std::uint32_t{0};
-
-  void mark_kept(std::uint32_t slot) noexcept {
-    if (bvh_) bvh_->mark(slot);
-    if (next_) next_->mark(slot);
-  }
+  static constexpr unsigned most_hurried = 4;
 
   /// No longer, once more than a quarter of its boxes have moved since it was begun.
-  bool is_worth_finishing() const { return next_ && 4 * next_->marks() <= next_->slot_count(); }
+  bool is_worth_finishing() const { return 4 * next_->marks() <= next_->slot_count(); }
+  void give_up_next() const noexcept {
+    next_.reset();
+    lost_ += std::exchange(spent_, 0);
+  }
+  /// Before that, if each has so many changes.
+  std::uint64_t calls_to_finish(std::size_t recent) const {
+    return std::max<std::uint64_t>(1, next_->slot_count() / (5 * std::max<std::size_t>(1, recent)));
+  }
 
   void mark_all(std::size_t slots) const {
     auto bvh = std::make_unique<Bvh<S>>();
@@ -109,6 +131,8 @@ class LazyIndex {
   mutable std::atomic<std::uint32_t> asked_{0};  // queries since a change that did without, or `fresh_now`
   mutable std::unique_ptr<Bvh<S>> bvh_;          // made by the first query: until then changes are not passed on
   mutable std::unique_ptr<Bvh<S>> next_;         // being built
+  mutable std::uint64_t spent_ = 0, lost_ = 0;   // work on that one, and on those that were given up
+  mutable unsigned hurried_ = 0;                 // trees made in a hurry, one after the other
 };
 
 }  // namespace boxstream::detail

@@ -35,7 +35,8 @@ SearchMode OverlapSearch<S>::choose(const ProxyTable<S>& proxies, const LazyInde
   const SearchChoice::Choice choice = choice_.choose(now);
   if (choice.gives_up) fat_boxes_.drop();
   constexpr std::uint64_t work = 2;  // of building, see Bvh::build_part, that a unit of price is
-  const bool is_ready = choice.worth_of_index != 0 && index.build_part(proxies, work * choice.worth_of_index);
+  const bool is_ready =
+      choice.worth_of_index != 0 && index.build_part(proxies, work * choice.worth_of_index, now.dirty);
   return is_ready ? SearchMode::probe : choice.mode;
 }
 

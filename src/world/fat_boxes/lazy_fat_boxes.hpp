@@ -17,7 +17,6 @@ class LazyFatBoxes {
     if (!fat_boxes_) fat_boxes_ = std::make_unique<FatBoxes<S>>();
     return *fat_boxes_;
   }
-  FatBoxes<S>* get() const { return fat_boxes_.get(); }
 
   bool is_active() const { return fat_boxes_ && fat_boxes_->is_active(); }
   CandidateState state() const { return fat_boxes_ ? fat_boxes_->state() : CandidateState(); }

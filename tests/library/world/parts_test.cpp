@@ -216,6 +216,94 @@ TEST(SearchMode, WhatMovesWhileAnIndexIsBuiltIsFound) {
   EXPECT_TRUE(was_beside && was_probe);
 }
 
+/// A query brings the present tree up to date, and not the one that the next update finishes.
+TEST(SearchMode, ATreeThatAnUpdateFinishesAfterAQueryIsUpToDate) {
+  const auto at = [](std::size_t x, float y) {
+    const auto left = static_cast<float>(x);
+    return Aabb{{left, y, 0}, {left + 1, y + 1, 1}};
+  };
+  World world;
+  const auto found = [&](const Aabb& box) {
+    std::size_t count = 0;
+    world.query_box(box, [&](ProxyId) { return ++count != 0; });
+    return count;
+  };
+  std::vector<ProxyId> ids;
+  for (std::size_t i = 0; i < 1000; ++i) ids.push_back(world.create(at(3 * i, 0)));
+  world.update();
+  ASSERT_EQ(found(at(0, 0)), 1u);
+  // So many that there is no place for them, but they can be looked through.
+  for (std::size_t i = 0; i < 100; ++i) world.create(at(3 * i, 50));
+  ASSERT_EQ(found(at(0, 50)), 1u);
+  world.update();
+  for (std::size_t frame = 0; frame < 600; ++frame) {
+    const Aabb box = at(10000 + 10 * frame, 500);
+    world.move(ids[0], box);
+    world.move(ids[1], box);
+    ASSERT_EQ(found(box), 2u) << frame;
+    world.update();
+    ASSERT_EQ(world.pair_count(), 1u) << frame;
+    ASSERT_EQ(found(box), 2u) << frame;
+    ASSERT_NO_THROW(world.validate()) << frame;
+  }
+}
+
+/// The same of whatever comes between two updates, with trees that are begun, overtaken, finished and worn.
+TEST(SearchMode, QueriesBetweenChangesAndUpdatesFindWhatThereIs) {
+  std::mt19937 engine(11);
+  const auto number = [&](unsigned below) { return engine() % below; };
+  const auto box = [&] {
+    Aabb one{};
+    for (int d = 0; d < 3; ++d) {
+      one.min[d] = static_cast<float>(number(2000)) / 100;
+      one.max[d] = one.min[d] + static_cast<float>(number(100)) / 100;
+    }
+    return one;
+  };
+  World world;
+  std::vector<std::pair<ProxyId, Aabb>> live;
+  const auto create = [&] {
+    const Aabb one = box();
+    live.emplace_back(world.create(one), one);
+  };
+  while (live.size() < 700) create();
+  std::vector<Aabb> boxes;
+  for (int frame = 0; frame < 1500; ++frame) {
+    // Spells of few and of many changes, near and far.
+    const unsigned spell = static_cast<unsigned>(frame) / 100;
+    for (unsigned left = number(spell % 3 == 0 ? 4 : 20); left > 0; --left) {
+      auto& [id, at] = live[number(static_cast<unsigned>(live.size()))];
+      if (spell % 2 == 0) {
+        at = box();
+      } else {
+        for (int d = 0; d < 3; ++d) at.max[d] += (at.max[d] - at.min[d]) / 8 + 0.01f;
+      }
+      world.move(id, at);
+    }
+    if (spell % 4 == 3 && number(3) == 0) {
+      create();
+      const std::size_t gone = number(static_cast<unsigned>(live.size()));
+      world.destroy(live[gone].first);
+      live.erase(live.begin() + static_cast<std::ptrdiff_t>(gone));
+    }
+    boxes.clear();
+    for (const auto& each : live) boxes.push_back(each.second);
+    if (number(2) == 0) {
+      const Aabb asked = box();
+      std::size_t found = 0;
+      world.query_box(asked, [&](ProxyId) { return ++found != 0; });
+      ASSERT_EQ(static_cast<std::ptrdiff_t>(found),
+                std::count_if(boxes.begin(), boxes.end(), [&](const Aabb& b) { return overlaps(b, asked); }))
+          << frame;
+    }
+    world.update();
+    ASSERT_EQ(world.pair_count(), find_pairs(boxes).size()) << frame;
+    if (frame % 50 == 0) {
+      ASSERT_NO_THROW(world.validate()) << frame;
+    }
+  }
+}
+
 /// Boxes by slot that a tree is built of, while some change.
 struct ChangingBoxes {
   explicit ChangingBoxes(std::size_t count) : engine(count), boxes(count) {
@@ -275,6 +363,60 @@ TEST(Index, InPartsTakesInWhatChangesMeanwhile) {
   } while (!index.build_part(200, of.box_of()));
   index.refresh(of.box_of());
   EXPECT_NO_THROW(index.validate(of.box_of()));
+}
+
+/// Boxes of which a few others change between any two parts of a tree, so that small parts come too late.
+struct ChangingProxies {
+  explicit ChangingProxies(std::uint32_t count) : of(count) {
+    table.reserve(count);
+    for (const Aabb& box : of.boxes) table.create(box, {}, 0);
+  }
+  void change(std::size_t changes) {
+    for (std::size_t i = 0; i < changes; ++i) {
+      const auto rank = static_cast<std::uint32_t>(of.engine() % table.ranks());
+      if (table.move(rank, of.random())) index.mark(table.id(rank).slot);
+    }
+  }
+  /// How many parts it takes.
+  std::size_t build(std::size_t changes) {
+    for (std::size_t parts = 1;; ++parts) {
+      change(changes);
+      if (index.build_part(table, 20, changes)) return parts;
+      if (parts == 100000) return 0;
+    }
+  }
+
+  ChangingBoxes of;
+  detail::ProxyTable<float> table;
+  detail::LazyIndex<float> index;
+};
+
+TEST(Index, IsMadeInTimeWhereverOthersChangeMeanwhile) {
+  for (const std::uint32_t count : {385u, 1000u, 4000u})
+    for (const std::size_t changes : {1u, 3u, 10u, 200u}) {
+      SCOPED_TRACE(testing::Message() << count << " boxes, " << changes << " changes");
+      ChangingProxies proxies(count);
+      const std::size_t whole = detail::Bvh<float>::work_of_build(count) / 20;
+      const std::size_t first = proxies.build(changes);
+      ASSERT_NE(first, 0u);
+      // Half of it again for parts that come too late, as for those that do not.
+      EXPECT_LE(first, whole + whole / 2 + count);
+      EXPECT_NO_THROW(proxies.index.validate(proxies.table));
+    }
+}
+
+TEST(Index, MadeInAHurryIsMadeLessOftenEachTime) {
+  ChangingProxies proxies(1000);
+  std::size_t before = proxies.build(30);
+  for (int again = 0; again < 3; ++again) {
+    const std::size_t parts = proxies.build(30);
+    EXPECT_GT(4 * parts, 7 * before) << again;
+    EXPECT_LT(4 * parts, 9 * before + 400) << again;
+    before = parts;
+  }
+  // One that small parts make is a new beginning.
+  proxies.build(0);
+  EXPECT_LT(2 * proxies.build(30), before);
 }
 
 template <class S>
