@@ -201,7 +201,8 @@ class BOXSTREAM_API BasicWorld {
   void refilter();
 
   /// From now on an update in which more than `most` pairs would begin throws std::length_error, soon after it has
-  /// found that many. For callers that have another way to handle many pairs.
+  /// found that many. For callers that have another way to handle many pairs. A pair that `accept` refuses counts until
+  /// it has been asked about it.
   void set_max_begun(std::uint64_t most);
 
   /// Pairs that began, and ended, in the last update. Valid until the next call that is not const.

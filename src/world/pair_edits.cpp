@@ -141,6 +141,7 @@ bool BasicWorld<S>::release(ProxyId a, ProxyId b) {
   if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none || rank_a == rank_b) return false;
   const PairKey key = pair_key(rank_a, rank_b);
   if (!impl_->pairs_.release(key)) return false;
+  impl_->rooms_.forget();
   impl_->search_.fat_boxes().held_changed(key);
   return true;
 }

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/thresholds.hpp"
 #include "base/tolerance.hpp"
 #include "world/state/pairs.hpp"
 #include "world/state/proxies.hpp"
@@ -91,7 +91,7 @@ class Rooms {
   bool lend(std::uint32_t rank, Box& outer, Box& inner) {
     const Room* const room = std::find_if(rooms_, rooms_ + count_, [&](const Room& r) { return r.rank == rank; });
     if (room == rooms_ + count_) return false;
-    lasted_ = 4;  // see are_worth_it
+    lasted_ = thresholds.rooms_pay;
     inner = room->inside;
     for (int d = 0; d < 3; ++d) {
       outer.min[d] = next_to(room->around.min[d], 1);

@@ -66,6 +66,7 @@ void WorldParts<S>::compare_found(SearchMode mode, const ProxyPairFilter* accept
   recheck_released();
 
   sort_found();
+  check_begun(accepted_.size() + found_.size());
   if (accept != nullptr) ask(*accept);
   take_accepted();
   find_ended();

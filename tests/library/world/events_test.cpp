@@ -422,6 +422,21 @@ TYPED_TEST(Events, UpdateBeyondTheLimitOfBegunPairsChangesNothing) {
   }
 }
 
+TYPED_TEST(Events, ReleasedPairsCountForTheLimitOfBegunPairs) {
+  using S = TypeParam;
+  for (const int boxes : {10, 1000}) {
+    BasicWorld<S> world;
+    std::vector<ProxyId> ids;
+    for (int i = 0; i < boxes; ++i) ids.push_back(world.create(this->cube(S(std::max(i - 1, 0)) * 2)));
+    ASSERT_EQ(world.update().begun, 1u);
+    ASSERT_TRUE(world.release(ids[0], ids[1]));
+    world.set_max_begun(0);
+    EXPECT_THROW(world.update(), std::length_error) << boxes;
+    world.set_max_begun(1);
+    EXPECT_EQ(world.update().begun, 1u) << boxes;
+  }
+}
+
 TYPED_TEST(Events, CallbacksOfUpdateMayQuery) {
   BasicWorld<TypeParam> world;
   for (int i = 0; i < 50; ++i) world.create(this->cube(TypeParam(i)));

@@ -202,5 +202,26 @@ TYPED_TEST(Rooms, EndWhereAPairBeginsOrEnds) {
     }
 }
 
+/// A pair that is released begins at the next update, so that no room can promise that nothing will.
+TEST(Rooms, AreNotLentWhileAPairIsReleased) {
+  World world;
+  const auto at = [](float x) { return Aabb{{x, 0, 0}, {x + 1, 1, 1}}; };
+  const ProxyId still = world.create(at(0)), mover = world.create(at(0.5f));
+  Aabb outer, inner;
+  const auto tremble_until_lent = [&] {
+    for (int step = 0; step < 100; ++step) {
+      world.move(mover, at(step % 2 == 0 ? 0.5f : 0.51f));
+      world.update();
+      if (world.room(mover, outer, inner)) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(tremble_until_lent());
+  ASSERT_TRUE(world.release(still, mover));
+  EXPECT_FALSE(world.room(mover, outer, inner));
+  EXPECT_EQ(world.update().begun, 1u);
+  EXPECT_TRUE(tremble_until_lent());
+}
+
 }  // namespace
 }  // namespace boxstream::tests
