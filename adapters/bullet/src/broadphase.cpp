@@ -133,13 +133,20 @@ void Broadphase::Impl::reset() {
   pool.clear();
   pending = PendingChanges();
   rooms.give_back();
-  surroundings.forget();
+  rooms_choice = {};
+  surroundings = {};
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
   std::vector<ProxyPair>().swap(ended);
   std::vector<Box>().swap(sampled);
-  is_quiet = false;
+  stats = {};
+  created = 0;
+  held_batches = few_failures = few_wait = still_batches = 0;
+  next_checked = checked_since_change = answered = 0;
+  groups = 0;
+  shared_mask = ~std::uint32_t{0};
+  may_refuse = has_new_filters = is_rule_current = is_quiet = all_have_begun = false;
 }
 
 void Broadphase::Impl::shrink_to_fit() {
@@ -166,7 +173,7 @@ void Broadphase::Impl::flush_all_pending() {
 }
 
 void Broadphase::Impl::flush_alone() {
-  if (world_is_busy || !has_pending.load(std::memory_order_relaxed)) return;
+  if (is_in_world || !has_pending.load(std::memory_order_relaxed)) return;
   pass_on_differing();
   flush_changes();
   has_pending.store(false, std::memory_order_release);

@@ -38,11 +38,12 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatc
   }
   ++answered;
   early.clear();
-  if (rooms.are_open() && !begin_among_candidates(proxy)) close_rooms();
-  if (!rooms.are_open()) {
+  if (!rooms.are_open() || !begin_among_candidates(proxy)) {
+    close_rooms();
     is_quiet = false;
     or_fatal([&] {
       release_user_changes(dispatcher, false);
+      surroundings.give_up_crowd();
       if (!surroundings.are_kept() && surroundings.note_search(live.size())) keep_surroundings();
       surroundings.are_kept() ? begin_among_neighbours(proxy, settled) : begin_by_search(proxy, settled);
     });
@@ -63,6 +64,7 @@ bool Broadphase::Impl::begin_among_candidates(Proxy& proxy) {
   or_fatal([&] {
     rooms.for_each_more(live, proxy, [&](Proxy& other) { early.emplace_back(proxy, other); });
     const bool are_accepted = begin_found(proxy);
+    if (!rooms.are_open()) return;  // a filter has destroyed a proxy, or created one
     for (const btBroadphasePair& pair : early) rooms.note_begun(proxy, other_of(pair, proxy));
     if (!are_accepted) close_rooms();  // what is refused is asked about in each move
   });
@@ -87,7 +89,7 @@ void Broadphase::Impl::begin_among_neighbours(Proxy& proxy, const Box& settled) 
 
 void Broadphase::Impl::begin_by_search(Proxy& proxy, const Box& settled) {
   flush_pending();
-  const Busy busy(*this);
+  const InWorld busy(*this);
   try {
     world.begin_pairs_of(
         proxy.id, [&](ProxyId a, ProxyId b) { return accepts(a, b); },
@@ -149,6 +151,7 @@ bool Broadphase::Impl::can_only_end() {
 
 void Broadphase::Impl::find_ended() {
   ended.clear();
+  const boxstream::detail::DefaultFloatEnvironment environment;
   PairStore& pairs = own->store();
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const auto &a = static_cast<const Proxy&>(*pairs[i].m_pProxy0), &b = static_cast<const Proxy&>(*pairs[i].m_pProxy1);

@@ -41,7 +41,8 @@ struct Broadphase::Impl {
     proxy.m_aabbMax = hi;
     rooms.note_move(proxy);
     has_pending.store(true, std::memory_order_relaxed);
-    if (may_begin_eagerly(dispatcher) && proxy.is_watched) begin_eagerly(proxy, no_box, dispatcher);
+    if (may_begin_eagerly(dispatcher) && (proxy.is_watched || rooms.have_exits()))
+      begin_eagerly(proxy, no_box, dispatcher);
   }
   void reset();
   void shrink_to_fit();
@@ -50,7 +51,7 @@ struct Broadphase::Impl {
   void validate();
 
   /// Passes pending changes on to the World. Needed before every use of the World. Queries may call it on several
-  /// threads at once. Does nothing while the World is busy.
+  /// threads at once. Does nothing within a call of the World.
   void flush_pending() {
     if (has_pending.load(std::memory_order_acquire)) flush_all_pending();
   }
@@ -103,9 +104,12 @@ struct Broadphase::Impl {
   /// True while callbacks may run that must not change proxies. If one does, the World gets the change afterwards, and
   /// the memory of a destroyed proxy is freed afterwards.
   bool world_is_busy = false;
+  /// True while they run within a call of the World, which can take no changes then.
+  bool is_in_world = false;
 
  private:
   class Busy;
+  class InWorld;
 
   void flush_all_pending();
   /// While nothing else uses the broad-phase.
@@ -161,6 +165,7 @@ struct Broadphase::Impl {
   void update_filter(Proxy& proxy, Filter filter);
   void release_user_changes(btDispatcher* dispatcher, bool thoroughly);
   void find_events(btDispatcher* dispatcher);
+  void look_again_at(Span<const ProxyPair> told);
   void note_ended();
   void end_in_borrowed(btDispatcher* dispatcher);
 
@@ -208,10 +213,19 @@ struct Broadphase::Impl {
 class Broadphase::Impl::Busy {
  public:
   explicit Busy(Impl& impl) : impl_(impl) { impl_.world_is_busy = true; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
   ~Busy() { impl_.world_is_busy = false; }
 
- private:
+ protected:
   Impl& impl_;
+};
+
+/// The same, within a call of the World.
+class Broadphase::Impl::InWorld : Busy {
+ public:
+  explicit InWorld(Impl& impl) : Busy(impl) { impl_.is_in_world = true; }
+  ~InWorld() { impl_.is_in_world = false; }
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

@@ -108,6 +108,8 @@ void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoro
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy) return;
+  // Before rooms, whose answer would be lost if a callback threw.
+  if (own && !own->is_settled()) own->flush_notifications(dispatcher);
   if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet()) return;
   if (own) own->flush_notifications(dispatcher);
   or_fatal([&] { find_events(dispatcher); });
@@ -125,14 +127,18 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   const auto accept = [&](ProxyId a, ProxyId b) { return accepts(a, b); };
   bool are_told = false;
   if (rooms.are_open()) {
+    if (!rooms.begun().empty() && own->getOverlapFilterCallback() != nullptr) flush_alone();  // it may query
     own->prepare(world);
-    const Busy busy(*this);
+    const InWorld busy(*this);
     stats = world.update_told(rooms.begun(), rooms.ended(), accept);
+    look_again_at(rooms.begun());
+    look_again_at(rooms.ended());
   } else if (can_only_end()) {
     find_ended();
     own->prepare(world);
-    const Busy busy(*this);
+    const InWorld busy(*this);
     stats = world.update_told({}, ended, accept);
+    look_again_at(ended);
     stats.moved = std::min(answered, live.size());
     are_told = true;
   } else {
@@ -141,7 +147,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     update_rule();
     update_filters();
     if (own) own->prepare(world);
-    const Busy busy(*this);
+    const InWorld busy(*this);
     stats = world.update(accept);
   }
   if (surroundings.are_kept()) note_ended();
@@ -159,6 +165,12 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   }
   surroundings.note_batch();
   guard.impl = nullptr;
+}
+
+/// The World has been told of these pairs, by boxes that it does not have yet. Should one go back to the box that the
+/// World has, its search has to look at the pair all the same.
+void Broadphase::Impl::look_again_at(Span<const ProxyPair> told) {
+  for (const ProxyPair& pair : told) world.refilter(pair.a);
 }
 
 void Broadphase::Impl::note_ended() {

@@ -10,8 +10,8 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 Broadphase::Impl::RoomsAnswer Broadphase::Impl::ask_rooms() {
-  const bool are_sound = own->user_changes().empty() && pending.empty() && is_rule_known() && !has_new_filters &&
-                         !(may_refuse && has_written_filter_in_quiet());
+  has_new_filters = has_new_filters || (may_refuse && has_written_filter_in_quiet());
+  const bool are_sound = own->user_changes().empty() && pending.empty() && is_rule_known() && !has_new_filters;
   if (!are_sound || !or_fatal([&] { return rooms.settle(live, rooms_choice, price_of_search()); })) {
     close_rooms();
     return RoomsAnswer::unknown;

@@ -71,7 +71,6 @@ void PairCache::send_notifications(btDispatcher* dispatcher) {
 }
 
 void PairCache::begin_early(const std::vector<btBroadphasePair>& begun, btDispatcher* dispatcher) {
-  flush_notifications(dispatcher);
   or_fatal([&] {
     for (const btBroadphasePair& pair : begun) {
       if (has_destroyed(pair)) {

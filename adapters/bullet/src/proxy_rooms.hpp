@@ -44,7 +44,7 @@ class ProxyRooms {
   const Proxies& few() const { return few_; }
 
   bool hold(const Proxy& proxy, const btVector3& lo, const btVector3& hi) const {
-    if (proxy.room >= rooms_.size()) return false;
+    if (proxy.room >= rooms_.size() || proxy.has_left_room) return false;  // until it gets a new one
     const Room& room = rooms_[proxy.room];
     bool in = true;
     for (int d = 0; d < 3; ++d) {
@@ -88,6 +88,8 @@ class ProxyRooms {
   const std::vector<ProxyPair>& begun() const { return begun_; }
   const std::vector<ProxyPair>& ended() const { return ended_; }
 
+  /// True if boxes have left their rooms. Those in their rooms may touch them.
+  bool have_exits() const { return !exited_.empty(); }
   /// True if all that boxes may touch now are candidates.
   bool come_near(const Proxies& live);
   /// Calls `visit(other)` for candidates that it touches and with which no pair is held.
@@ -95,7 +97,7 @@ class ProxyRooms {
   void for_each_more(const Proxies& live, const Proxy& proxy, Visit&& visit) const {
     const boxstream::detail::DefaultFloatEnvironment environment;
     const Row& row = rows_[proxy.position];
-    const std::uint32_t looked_at = proxy.has_left_room ? row.size : row.watched;
+    const std::uint32_t looked_at = have_exits() ? row.size : row.watched;
     for (std::uint32_t i = 0; i < looked_at; ++i) {
       const Candidate candidate = candidates_[row.first + i];
       if (candidate.is_held) continue;
@@ -110,7 +112,8 @@ class ProxyRooms {
   void close(const Proxies& live) noexcept;
   void give_back() noexcept;
 
-  void validate(const Proxies& live, const World& world) const;
+  /// `refuses` is true if a filter callback may refuse pairs that group and mask accept.
+  void validate(const Proxies& live, const World& world, bool refuses) const;
 
  private:
   using Key = std::conditional_t<sizeof(btScalar) == 4, std::int32_t, std::int64_t>;

@@ -15,6 +15,8 @@ namespace {
 
 using Box = Surroundings::Box;
 
+constexpr unsigned most_failures = 8;
+
 /// Wider on all sides by an eighth of its least side, and on those to which it goes by up to half of it: `went` is how
 /// far it came since the last one.
 Box fat_box(const Box& box, const btScalar (&went)[3]) {
@@ -39,11 +41,12 @@ void Surroundings::begin(std::size_t proxies) {
   index_.emplace();
   rows_.reserve(proxies);
   bounds_.reserve(proxies);
-  searches_ = questions_ = refits_ = links_ = 0;
+  searches_ = questions_ = refits_ = links_ = longest_ = 0;
   idle_batches_ = 0;
 }
 
 void Surroundings::note_created(Proxy& proxy, const Box& box) {
+  const boxstream::detail::DefaultFloatEnvironment environment;
   if (free_rows_.empty()) {
     rows_.emplace_back();
     bounds_.resize(rows_.size());
@@ -56,7 +59,7 @@ void Surroundings::note_created(Proxy& proxy, const Box& box) {
   rows_[proxy.row].fat = no_box;
   rows_[proxy.row].proxy = &proxy;
   rows_[proxy.row].has_moved = false;
-  bounds_[proxy.row] = is_valid(box) ? Bounds(box) : Bounds::nowhere();
+  bounds_[proxy.row] = bounds_of(box);
   note_strayed(proxy.row);
 }
 
@@ -68,7 +71,12 @@ void Surroundings::note_destroyed(Proxy& proxy) noexcept {
   row.held = 0;
   index_->destroy(std::exchange(row.in_index, ProxyId()));
   asking_ -= std::exchange(row.asks, false) ? 1 : 0;
-  if (std::exchange(row.has_strayed, false)) strayed_.erase(std::find(strayed_.begin(), strayed_.end(), proxy.row));
+  if (row.has_strayed()) {  // the last one takes its place
+    rows_[strayed_.back()].strayed_at = row.strayed_at;
+    strayed_[row.strayed_at] = strayed_.back();
+    strayed_.pop_back();
+    row.strayed_at = none;
+  }
   row.proxy = nullptr;
   free_rows_.push_back(proxy.row);
 }
@@ -109,7 +117,7 @@ void Surroundings::settle(Proxy& proxy) {
   ++questions_;
   idle_batches_ = 0;
   for (const std::uint32_t strayed : strayed_) {
-    rows_[strayed].has_strayed = false;
+    rows_[strayed].strayed_at = none;
     refit(strayed);
   }
   strayed_.clear();
@@ -177,19 +185,24 @@ void Surroundings::find_neighbours(std::uint32_t at) {
   for (const std::uint32_t other : found_) {
     row.near.push_back(other);
     rows_[other].near.push_back(at);
+    longest_ = std::max(longest_, rows_[other].near.size());
   }
+}
+
+/// At one place, refused pairs would take memory. Around one proxy, each link is looked for among the others.
+void Surroundings::give_up_crowd() noexcept {
+  constexpr std::size_t most_in_mean = 256, most_of_one = 4096;
+  if (!are_kept() || (links_ <= most_in_mean * rows_.size() && longest_ <= most_of_one)) return;
+  failures_ = most_failures;
+  forget();
 }
 
 void Surroundings::note_batch() {
   if (!are_kept()) return;
-  constexpr unsigned most_idle = 64, most_failures = 8;
+  constexpr unsigned most_idle = 64;
   if (++idle_batches_ > most_idle) return forget();
-  // A crowd at one place: refused pairs would take memory, and each link is looked for among the others.
-  constexpr std::size_t most_of_row = 256;
-  if (links_ > most_of_row * rows_.size()) {
-    failures_ = most_failures;
-    return forget();
-  }
+  give_up_crowd();
+  if (!are_kept()) return;
   if (questions_ + refits_ < rows_.size() + 64) return;
   if (4 * refits_ > 3 * questions_) {
     failures_ = std::min(failures_ + 1, most_failures);
@@ -221,7 +234,7 @@ void Surroundings::validate(const std::vector<Proxy*>& live, const BasicWorld<bt
     check(row.proxy == proxy, "surroundings: the row of another");
     for (std::uint32_t i = 0; row.epoch == epoch_ && i < row.held; ++i)
       check(world.pair_place(proxy->id, rows_[row.near[i]].proxy->id).has_value(), "surroundings: a pair is not held");
-    if (row.has_strayed) continue;
+    if (row.has_strayed()) continue;
     const Box box = bounds_[proxy->row].box();
     check(is_valid(box) ? holds(row.fat, box) : !is_valid(row.fat),
           "surroundings: a box that has left its fat box is not noted");
@@ -232,7 +245,7 @@ void Surroundings::validate(const std::vector<Proxy*>& live, const BasicWorld<bt
       check(links == std::count(beside.near.begin(), beside.near.end(), proxy->row), "surroundings: of one side only");
       const bool are_neighbours = other != proxy && (row.asks || beside.asks) && is_valid(row.fat) &&
                                   is_valid(beside.fat) && overlaps(row.fat, beside.fat);
-      check(links == (are_neighbours ? 1 : 0) || beside.has_strayed, "surroundings: wrong neighbours");
+      check(links == (are_neighbours ? 1 : 0) || beside.has_strayed(), "surroundings: wrong neighbours");
     }
   }
 }

@@ -36,9 +36,10 @@ class Surroundings {
   void note_created(Proxy& proxy, const Box& box);
   void note_destroyed(Proxy& proxy) noexcept;
   void note_move(Proxy& proxy, const Box& box) {
-    bounds_[proxy.row] = is_valid(box) ? Bounds(box) : Bounds::nowhere();
+    const boxstream::detail::DefaultFloatEnvironment environment;
+    bounds_[proxy.row] = bounds_of(box);
     const Row& row = rows_[proxy.row];
-    if (!row.has_strayed && !holds(row.fat, box)) note_strayed(proxy.row);
+    if (!row.has_strayed() && !holds(row.fat, box)) note_strayed(proxy.row);
   }
 
   /// Calls `visit(other)` for what the proxy touches and `settled` does not, if it is valid; but not where it has
@@ -61,6 +62,8 @@ class Surroundings {
 
   /// No longer kept if questions have been too few to pay for them, or neighbours are too many.
   void note_batch();
+  /// No longer kept if neighbours are too many. Before a question, for there may be many between two batches.
+  void give_up_crowd() noexcept;
   /// Gives all memory back.
   void forget() noexcept;
 
@@ -68,6 +71,7 @@ class Surroundings {
 
  private:
   using Index = BasicWorld<btScalar>;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr Box no_box{{1, 1, 1}, {-1, -1, -1}};
 
   /// A box that is compared with others by a few instructions.
@@ -94,13 +98,15 @@ class Surroundings {
     btScalar center[3] = {};  // of the box, when the fat one was made
     std::uint64_t stamp = 0;  // see find_neighbours
     bool asks = false;
-    bool has_strayed = false;
-    bool has_moved = false;  // its fat box is wider than the box
-    std::uint32_t held = 0;  // of the neighbours: the first ones, with which a pair is held, in this epoch
+    std::uint32_t strayed_at = none;  // in `strayed_`
+    bool has_moved = false;           // its fat box is wider than the box
+    std::uint32_t held = 0;           // of the neighbours: the first ones, with which a pair is held, in this epoch
     std::uint64_t epoch = 0;
     Proxy* proxy = nullptr;  // null if the row is free
     ProxyId in_index;
     std::vector<std::uint32_t> near;  // rows
+
+    bool has_strayed() const { return strayed_at != none; }
   };
 
   /// False for invalid ones too.
@@ -110,6 +116,7 @@ class Surroundings {
       in = in & (fat.min[d] <= box.min[d]) & (box.min[d] <= box.max[d]) & (box.max[d] <= fat.max[d]);
     return in;
   }
+  static Bounds bounds_of(const Box& box) { return is_valid(box) ? Bounds(box) : Bounds::nowhere(); }
 
   static bool touch(const Bounds& a, const Bounds& b) {
     using Halves __attribute__((vector_size(sizeof(Bounds::Four)))) = long long;
@@ -121,7 +128,7 @@ class Surroundings {
   /// Places of neighbours, to `found_`; returns how many.
   std::size_t find_touching(const Row& row, const Bounds& box, const Box& settled);
   void note_strayed(std::uint32_t row) {
-    rows_[row].has_strayed = true;
+    rows_[row].strayed_at = std::uint32_t(strayed_.size());
     strayed_.push_back(row);  // there is room for each once
   }
   /// Before a question.
@@ -141,6 +148,7 @@ class Surroundings {
   std::uint64_t stamp_ = 0, epoch_ = 0;
   std::size_t asking_ = 0;    // rows
   std::size_t links_ = 0;     // from a row to a neighbour
+  std::size_t longest_ = 0;   // of the neighbours of a row, ever
   std::size_t searches_ = 0;  // while they are not kept
   std::size_t questions_ = 0, refits_ = 0;
   unsigned idle_batches_ = 0, failures_ = 0;

@@ -86,7 +86,7 @@ void PairCache::validate(const BasicWorld<btScalar>& world) {
 }
 
 void Broadphase::Impl::validate() {
-  rooms.validate(live, world);
+  rooms.validate(live, world, own && own->getOverlapFilterCallback() != nullptr);
   if (!rooms.are_open()) surroundings.validate(live, world);
   if (rooms.are_open() || all_have_begun) flush_pending();  // held pairs touch by boxes that the World may not have
   world.validate();

@@ -40,10 +40,12 @@ class EagerWorld {
     subject_ = new boxstream::bullet::Broadphase(cache == Cache::hashed ? &hashed_ : nullptr, options);
     rig_.broadphase.reset(subject_);
     rig_.cache().setInternalGhostPairCallback(&ghost_callback_);
+    if (start % 4 >= 1) rig_.cache().setOverlapFilterCallback(&filter_);
   }
   ~EagerWorld() {
     while (!things_.empty()) destroy(things_.size() - 1);
     rig_.cache().setInternalGhostPairCallback(nullptr);
+    rig_.cache().setOverlapFilterCallback(nullptr);
   }
 
   void run(int things, int steps) {
@@ -107,6 +109,7 @@ class EagerWorld {
     if (motion_ == Motion::jump) thing.at = random_.vector(-3, 3);
     thing.at += thing.velocity;
     if (thing.at.length() > 5) thing.velocity = -thing.velocity;
+    if (random_.below(12) == 0) set(i, cube(20, thing.at.y(), thing.at.z()));  // and back
     set(i, cube(thing.at.x(), thing.at.y(), thing.at.z(), random_.below(2) == 0 ? btScalar(0.5) : btScalar(0.48)));
   }
   void set(std::size_t i, const Box& box) {
@@ -135,13 +138,29 @@ class EagerWorld {
     rig_.cache().removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, &rig_.dispatcher);
   }
 
-  bool ought_to_pair(const Thing& a, const Thing& b) const {
+  static bool is_accepted(const btBroadphaseProxy& x, const btBroadphaseProxy& y) {
+    return (x.m_collisionFilterGroup & y.m_collisionFilterMask) != 0 &&
+           (y.m_collisionFilterGroup & x.m_collisionFilterMask) != 0;
+  }
+  /// The same and more, by the filter, which looks for what it is asked about.
+  bool is_accepted_by_filter(btBroadphaseProxy* a, btBroadphaseProxy* b) {
+    if (!is_accepted(*a, *b) || (a->m_uniqueId + b->m_uniqueId) % 5 == 0) return false;
+    if (random_.below(10) == 0) {
+      for (const btBroadphaseProxy* one : {a, b}) {
+        const auto found = rig_.in_box({one->m_aabbMin, one->m_aabbMax});
+        EXPECT_NE(std::find(found.begin(), found.end(), one), found.end());
+      }
+    }
+    return true;
+  }
+
+  bool ought_to_pair(const Thing& a, const Thing& b) {
     const btBroadphaseProxy &x = *a.proxy, &y = *b.proxy;
     const btVector3 grown(margin_, margin_, margin_);
     return is_valid_box(x.m_aabbMin, x.m_aabbMax) && is_valid_box(y.m_aabbMin, y.m_aabbMax) &&
            boxes_overlap(x.m_aabbMin - grown, x.m_aabbMax + grown, y.m_aabbMin - grown, y.m_aabbMax + grown) &&
-           (x.m_collisionFilterGroup & y.m_collisionFilterMask) != 0 &&
-           (y.m_collisionFilterGroup & x.m_collisionFilterMask) != 0;
+           is_accepted(x, y) &&
+           (rig_.cache().getOverlapFilterCallback() == nullptr || (x.m_uniqueId + y.m_uniqueId) % 5 != 0);
   }
   /// What one that is eager touches is held at once, unless a user has removed it, and told to ghosts.
   void check(const Thing& moved) {
@@ -178,6 +197,7 @@ class EagerWorld {
   const bool are_refused_, only_ghosts_move_, are_quiet_;
   Random random_;
   btGhostPairCallback ghost_callback_;
+  FunctionFilter filter_{[this](btBroadphaseProxy* a, btBroadphaseProxy* b) { return is_accepted_by_filter(a, b); }};
   btHashedOverlappingPairCache hashed_;
   Rig rig_;
   boxstream::bullet::Broadphase* subject_;

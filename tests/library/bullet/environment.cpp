@@ -104,10 +104,11 @@ struct Counter : btBroadphaseRayCallback {
 };
 
 /// Every call with a special value at every place; what was counted.
-unsigned call_all(btScalar margin, const std::vector<btScalar>& special_values) {
+unsigned call_all(btScalar margin, boxstream::bullet::Eager eager, const std::vector<btScalar>& special_values) {
   Counter counter;
   boxstream::bullet::Options options;
   options.margin = margin;
+  options.eager = eager;
   boxstream::bullet::Broadphase broadphase(options);
   std::vector<btBroadphaseProxy*> proxies;
   const auto vector = [](const btScalar* x) { return btVector3(x[0], x[1], x[2]); };
@@ -163,13 +164,15 @@ TEST(BulletEnvironment, NoCallTrapsForAnySpecialValue) {
                                                 -Limits::infinity(),
                                                 Limits::quiet_NaN(),
                                                 Limits::signaling_NaN()};
-  for (const btScalar margin : special_values) {
-    const unsigned expected = call_all(margin, special_values);
-    EXPECT_GT(expected, 1000u);
-    unsigned found = 0;
-    with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, [&] { found = call_all(margin, special_values); });
-    EXPECT_EQ(found, expected) << "margin " << margin;
-  }
+  using boxstream::bullet::Eager;
+  for (const Eager eager : {Eager::ghosts, Eager::all})
+    for (const btScalar margin : special_values) {
+      const unsigned expected = call_all(margin, eager, special_values);
+      EXPECT_GT(expected, 1000u);
+      unsigned found = 0;
+      with_traps(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW, [&] { found = call_all(margin, eager, special_values); });
+      EXPECT_EQ(found, expected) << "margin " << margin << (eager == Eager::all ? ", all eager" : "");
+    }
 }
 
 TEST(BulletEnvironment, FloatingPointExceptionsUnmasked) {

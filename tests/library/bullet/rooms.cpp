@@ -333,5 +333,217 @@ TEST(BulletRooms, BoxesAtZeroAndFarOut) {
   }
 }
 
+/// A pile with few others, of which pairs are told to the World by boxes that it does not have.
+class ToldPairs : public ::testing::Test {
+ public:
+  explicit ToldPairs(boxstream::bullet::Eager eager = boxstream::bullet::Eager::ghosts) : pile_(options(eager)) {}
+  ~ToldPairs() override {
+    for (btBroadphaseProxy* proxy : others_) pile_.broadphase.destroyProxy(proxy, nullptr);
+    pile_.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(nullptr);
+  }
+
+ protected:
+  btBroadphaseProxy* make(btScalar x, btScalar y = 0) {
+    const Box box = cube(x, y, 0);
+    others_.push_back(
+        pile_.broadphase.createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, nullptr, 1, -1, &rig_.dispatcher));
+    return others_.back();
+  }
+  void set(btBroadphaseProxy* proxy, btScalar x, btScalar y = 0) {
+    const Box box = cube(x, y, 0);
+    pile_.broadphase.setAabb(proxy, box.lo, box.hi, nullptr);
+  }
+  bool holds(const btBroadphaseProxy* a, const btBroadphaseProxy* b) {
+    return find_in_array(pile_.broadphase, a, b) != nullptr;
+  }
+  btOverlappingPairCache& cache() { return *pile_.broadphase.getOverlappingPairCache(); }
+
+  Rig rig_;
+  Pile pile_;
+  std::vector<btBroadphaseProxy*> others_;
+
+ private:
+  static bullet::Options options(boxstream::bullet::Eager eager) {
+    bullet::Options options;
+    options.eager = eager;
+    return options;
+  }
+};
+
+class EagerToldPairs : public ToldPairs {
+ public:
+  EagerToldPairs() : ToldPairs(boxstream::bullet::Eager::all) {}
+};
+
+TEST_F(ToldPairs, BeginAgainWhereABoxGoesBack) {
+  btBroadphaseProxy *const still = make(50), *const mover = make(btScalar(50.5));
+  pile_.settle();
+  set(mover, 80);
+  pile_.calculate();
+  EXPECT_FALSE(holds(still, mover));
+  set(mover, btScalar(50.5));
+  make(200);
+  pile_.calculate();
+  EXPECT_TRUE(holds(still, mover));
+  pile_.broadphase.validate();
+}
+
+TEST_F(ToldPairs, EndAgainWhereABoxGoesBack) {
+  btBroadphaseProxy *const still = make(50), *const mover = make(80);
+  pile_.settle();
+  set(mover, btScalar(50.5));
+  pile_.calculate();
+  EXPECT_TRUE(holds(still, mover));
+  set(mover, 80);
+  make(200);
+  pile_.calculate();
+  EXPECT_FALSE(holds(still, mover));
+  pile_.broadphase.validate();
+}
+
+TEST_F(EagerToldPairs, BeginWhereAnotherOneIsRefused) {
+  btBroadphaseProxy *refused = nullptr, *mover = nullptr;
+  FunctionFilter filter([&](btBroadphaseProxy* a, btBroadphaseProxy* b) {
+    return !((a == refused && b == mover) || (a == mover && b == refused));
+  });
+  cache().setOverlapFilterCallback(&filter);
+  btBroadphaseProxy* const still = make(50);
+  refused = make(50, btScalar(1.6));
+  mover = make(70);
+  pile_.settle();
+  set(mover, 50, btScalar(0.8));
+  EXPECT_TRUE(holds(mover, still));
+  EXPECT_FALSE(holds(mover, refused));
+  pile_.broadphase.validate();
+  pile_.calculate();
+  EXPECT_TRUE(holds(mover, still));
+  pile_.broadphase.validate();
+}
+
+TEST_F(EagerToldPairs, BeginWithOneThatWentOutAndCameBack) {
+  btBroadphaseProxy *const back = make(60), *const mover = make(60, 5);
+  pile_.settle();
+  set(back, 90);
+  set(back, 60, btScalar(0.001));
+  set(mover, 60, btScalar(0.5));
+  EXPECT_TRUE(holds(back, mover));
+  pile_.calculate();
+  EXPECT_TRUE(holds(back, mover));
+  pile_.broadphase.validate();
+}
+
+/// One leaves its room and comes so near to another that this touches it without leaving its own.
+TEST_F(EagerToldPairs, BeginWithOneThatLeftItsRoom) {
+  for (int step = 0; step < 12; ++step) {
+    btBroadphaseProxy *const one = make(60), *const other = make(63);
+    pile_.settle();
+    const btScalar to = btScalar(61.95) + btScalar(step) / 200;
+    set(one, to);
+    set(other, to + btScalar(0.99));
+    const bool touch = boxes_overlap(one->m_aabbMin, one->m_aabbMax, other->m_aabbMin, other->m_aabbMax);
+    EXPECT_TRUE(touch);
+    EXPECT_EQ(holds(one, other), touch) << step;
+    pile_.calculate();
+    EXPECT_EQ(holds(one, other), touch) << step;
+    pile_.broadphase.validate();
+    set(one, btScalar(1000 + 10 * step));
+    set(other, btScalar(2000 + 10 * step));
+  }
+}
+
+/// A filter that asks what is where a box has come to finds that box.
+TEST_F(EagerToldPairs, FiltersFindBoxesAsTheyAre) {
+  for (const bool of_pile : {true, false}) {
+    btBroadphaseProxy *const still = make(of_pile ? 50 : 52), *const mover = make(of_pile ? 70 : 72);
+    if (of_pile) {
+      pile_.settle();
+    } else {
+      for (int round = 0; round < 60; ++round) pile_.tremble(btScalar(0.3));  // neighbours are kept without rooms
+    }
+    int asked = 0, found = 0;
+    FunctionFilter filter([&](btBroadphaseProxy* a, btBroadphaseProxy* b) {
+      if (a != mover && b != mover) return true;
+      ++asked;
+      struct Finder : btBroadphaseAabbCallback {
+        bool process(const btBroadphaseProxy* proxy) override {
+          has_found = has_found || proxy == wanted;
+          return true;
+        }
+        const btBroadphaseProxy* wanted = nullptr;
+        bool has_found = false;
+      } finder;
+      finder.wanted = mover;
+      pile_.broadphase.aabbTest(mover->m_aabbMin, mover->m_aabbMax, finder);
+      found += finder.has_found ? 1 : 0;
+      return true;
+    });
+    cache().setOverlapFilterCallback(&filter);
+    pile_.calculate();
+    set(mover, of_pile ? btScalar(50.5) : btScalar(52.5));
+    EXPECT_TRUE(holds(still, mover));
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(found, asked);
+    pile_.calculate();
+    pile_.broadphase.validate();
+    cache().setOverlapFilterCallback(nullptr);
+  }
+}
+
+/// Masks that are written while one box trembles.
+TEST(BulletRooms, WrittenMasksAreNoticedBesideAMover) {
+  Rig rig;
+  auto* const broadphase = new bullet::Broadphase;
+  rig.broadphase.reset(broadphase);
+  std::vector<btBroadphaseProxy*> pairs;
+  for (int i = 0; i < 600; ++i) pairs.push_back(rig.create(cube(btScalar(10 * (i / 2)), 0, 0), 1, 2));
+  btBroadphaseProxy* const mover = rig.create(cube(0, 50, 0));
+  int batches = 0;
+  const auto tremble = [&] {
+    rig.move(mover, cube(0, btScalar(50) + (++batches % 2 == 0 ? btScalar(0.001) : btScalar(-0.001)), 0));
+    rig.calculate();
+  };
+  for (int batch = 0; batch < 50; ++batch) tremble();
+  ASSERT_EQ(broadphase->stats().moved, 0u) << "no rooms";
+  for (const std::size_t i : {400u, 401u}) pairs[i]->m_collisionFilterMask = 1;
+  for (int batch = 0; batch < 60; ++batch) tremble();
+  EXPECT_EQ(rig.pair_count(), 1);
+  broadphase->validate();
+}
+
+/// After `resetPool` the same calls have the same results, counts of what was looked at included.
+TEST(BulletRooms, ResetForgetsWhatWasBefore) {
+  bullet::Options options;
+  bullet::Broadphase broadphase(options);
+  const auto run = [&] {
+    std::vector<std::uint64_t> log;
+    Random random(5);
+    std::vector<btBroadphaseProxy*> proxies;
+    std::vector<btVector3> places;
+    for (int i = 0; i < 60; ++i) {
+      places.push_back(random.vector(-2, 2));
+      const Box box = cube(places.back().x(), places.back().y(), places.back().z());
+      proxies.push_back(
+          broadphase.createProxy(box.lo, box.hi, 0, nullptr, i % 9 == 0 ? 2 : 1, i % 7 == 0 ? 1 : -1, nullptr));
+    }
+    for (int frame = 0; frame < 150; ++frame) {
+      const btScalar by = frame % 50 < 25 ? btScalar(0.001) : btScalar(0.2);
+      for (std::size_t i = 0; i < proxies.size(); ++i) {
+        const btVector3 at = places[i] + random.vector(-by, by);
+        const Box box = cube(at.x(), at.y(), at.z());
+        broadphase.setAabb(proxies[i], box.lo, box.hi, nullptr);
+      }
+      broadphase.calculateOverlappingPairs(nullptr);
+      const WorldStats& stats = broadphase.stats();
+      log.insert(log.end(), {stats.moved, stats.begun, stats.ended, stats.pairs});
+    }
+    for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+    broadphase.resetPool(nullptr);
+    return log;
+  };
+  const auto first = run();
+  EXPECT_EQ(run(), first);
+  EXPECT_EQ(run(), first);
+}
+
 }  // namespace
 }  // namespace boxstream::bullet_test

@@ -121,6 +121,78 @@ TEST(BulletHardBoxes, GhostCallbackThrowsAtEachEvent) {
   }
 }
 
+/// The same twice: in a batch, and then within a move, where what is left of the batch is told first.
+TEST(BulletHardBoxes, GhostCallbackThrowsInABatchAndInAMove) {
+  for (int at = 1; at <= 30; ++at) {
+    boxstream::bullet::Options options;
+    options.eager = boxstream::bullet::Eager::all;
+    auto* oracle = new Oracle(std::make_unique<boxstream::bullet::Broadphase>(options));
+    Rig rig;
+    rig.broadphase.reset(oracle);
+    Fuse fuse;
+    GhostLog ghost;
+    ghost.on_event = [&](const GhostLog::Event&) { fuse.burn(); };
+    rig.cache().setInternalGhostPairCallback(&ghost);
+    const auto proxies = make_crowd(rig);
+    const auto throws = [&](auto&& call) {
+      fuse = {at, 0};
+      try {
+        call();
+      } catch (const Thrown&) {
+        return true;
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < 10; ++i) rig.move(proxies[i], cube(60, btScalar(5 * i), 0));
+    throws([&] { rig.calculate(); });
+    throws([&] { rig.move(proxies[1], cube(0, 0, 0)); });
+    throws([&] { rig.move(proxies[2], cube(0, 0, 0)); });
+    fuse = {};
+    rig.calculate();
+    ASSERT_TRUE(oracle->check(Rule::exact)) << "call " << at;
+    ASSERT_NO_THROW(validate(oracle->inner())) << "call " << at;
+    ASSERT_EQ(ghost.standing(), sorted(rig.pairs())) << "call " << at;
+    rig.cache().setInternalGhostPairCallback(nullptr);
+  }
+}
+
+/// And in two batches, the second of which rooms would answer.
+TEST(BulletHardBoxes, GhostCallbackThrowsInTwoBatches) {
+  for (int at = 1; at <= 4; ++at) {
+    Watched watched;
+    Fuse fuse;
+    GhostLog ghost;
+    ghost.on_event = [&](const GhostLog::Event&) { fuse.burn(); };
+    watched.rig.cache().setInternalGhostPairCallback(&ghost);
+    std::vector<btBroadphaseProxy*> proxies;
+    for (int i = 0; i < 60; ++i) proxies.push_back(watched.rig.create(cube(btScalar(1.05) * btScalar(i), 0, 0)));
+    Random random(3);
+    const auto tremble = [&] {
+      for (int i = 2; i < 60; ++i)
+        watched.rig.move(proxies[std::size_t(i)],
+                         cube(btScalar(1.05) * btScalar(i) + random.real(btScalar(-0.001), btScalar(0.001)), 0, 0));
+    };
+    for (int batch = 0; batch < 40; ++batch) {
+      tremble();
+      ASSERT_TRUE(watched.calculate());
+    }
+    for (int batch = 0; batch < 2; ++batch) {
+      for (std::size_t i = 0; i < 2; ++i)
+        watched.rig.move(proxies[i], cube(btScalar(20 + 10 * batch) + btScalar(i), btScalar(0.4), 0));
+      fuse = {at, 0};
+      try {
+        watched.oracle->inner().calculateOverlappingPairs(&watched.rig.dispatcher);
+      } catch (const Thrown&) {
+      }
+    }
+    fuse = {};
+    ASSERT_TRUE(watched.calculate()) << "event " << at;
+    ASSERT_NO_THROW(validate(watched.oracle->inner())) << "event " << at;
+    ASSERT_EQ(ghost.standing(), sorted(watched.rig.pairs())) << "event " << at;
+    watched.rig.cache().setInternalGhostPairCallback(nullptr);
+  }
+}
+
 TEST(BulletHardBoxes, QueriesThrowAtEachProxy) {
   Rig rig;
   make_crowd(rig);
