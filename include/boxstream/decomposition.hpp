@@ -24,9 +24,11 @@ BOXSTREAM_API bool is_sampled(std::uint64_t id, std::uint64_t boxes, std::size_t
 ///
 /// @par Use
 /// Each gets the boxes that touch its part, finds their pairs, and keeps those for which `before` has no bit twice.
-/// Then each pair of the set is found once. Made: by a k-d tree over a sample, a function of the boxes in it, not of
-/// their order. Coordinates are compared and never computed with: processes with the same sample have the same parts,
-/// and boxes may be infinite.
+/// Then each pair of the set is found once.
+///
+/// @par Method
+/// A k-d tree over a sample, which is a function of the boxes in it, not of their order. Coordinates are compared and
+/// never computed with: processes with the same sample have the same parts, and boxes may be infinite.
 ///
 /// @par Balance
 /// Of the boxes that touch each part, as far as the sample tells. Boxes that are cut count in each part.

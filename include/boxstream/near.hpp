@@ -75,10 +75,15 @@ inline bool is_near(const BasicBall<S>& a, const BasicBall<S>& b, double distanc
 /// lost; `is_near` decides, with denormal numbers as they are, whatever the host does to them. Points within r of
 /// each other: radius 0, distance r.
 ///
-/// Order, threads, sinks and limits: as `detector` has them; `is_near` runs on the calling thread. `Stats::pairs` are
-/// those delivered, `Stats::invalid` invalid balls; all else is about boxes.
-/// Memory: a box for each ball, for the time of the call, beside what the detector keeps.
-/// Errors: std::invalid_argument unless `distance` is finite and >= 0; what the detector throws.
+/// @par Order
+/// As of `detector`; so are threads, sinks and limits. `is_near` runs on the calling thread. `Stats::pairs` are those
+/// delivered, `Stats::invalid` invalid balls; all else is about boxes.
+///
+/// @par Memory
+/// A box for each ball, for the time of the call, beside what the detector keeps.
+///
+/// @par Errors
+/// std::invalid_argument unless `distance` is finite and >= 0; what the detector throws.
 ///
 /// Made for radii of about the same size: boxes around a ball that is much larger than its neighbours have corners that
 /// hold many of them. It does not give distances, and not the k nearest.

@@ -88,7 +88,9 @@ struct OutOfCoreStats {
 /// @par Memory
 /// At most `options.memory`, and 8 bytes for each block of the file, which has 4 KiB to 1 MiB. Up to three times as
 /// much where a search has to copy boxes to many cells: long bars that cross heaps of thousands in one place.
-/// Floating-point environment: any; nothing is computed in it, and reader and sink are called in the caller's.
+///
+/// @par Floating point
+/// Any environment: nothing is computed in it, and reader and sink are called in the caller's.
 ///
 /// @par Errors
 /// std::invalid_argument (memory, tolerance), std::system_error (the file, with the system's reason: no folder, disk

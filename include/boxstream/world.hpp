@@ -260,7 +260,7 @@ class BOXSTREAM_API BasicWorld {
 
   /// Proxies whose boxes are nearer to `box` than the limit. The limit is `limit` at first, then the last result of the
   /// visitor. Infinity is no limit.
-  /// Order: roughly nearest first. A visitor that returns the least distance so far sees few boxes but the nearest. The
+  /// Those roughly nearest come first. A visitor that returns the least distance so far sees few boxes but the nearest. The
   /// order depends only on the history of calls. After a higher limit than before, boxes that were left out may stay
   /// out. Distances: Euclidean, rounded down by some units in the last place, never above the exact ones. Always
   /// finite: those beyond the largest finite number are that number. They depend only on the two boxes. No query

@@ -26,6 +26,8 @@ for header in headers:
             wrong.append(f"{name}:{first}: {len(labels)} labels within text: each wants a line of its own, as @par")
         length = 0
         for number, line in enumerate(lines, first):
+            if re.match(rf"(?:{LABELS}): ", line):
+                wrong.append(f"{name}:{number}: a label that begins a line wants to be an @par")
             length = 0 if line.strip() == "" or line.startswith(("@par", "    ")) else length + 1
             if length == MOST_LINES + 1:
                 wrong.append(f"{name}:{number}: a paragraph of more than {MOST_LINES} lines")

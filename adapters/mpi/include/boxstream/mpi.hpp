@@ -20,7 +20,8 @@ namespace boxstream::mpi {
 
 /// Finds the pairs of boxes that the ranks of a communicator have, together.
 ///
-/// Call: by all ranks of `comm`, each with its own boxes and their ids: any of them on any rank, none on some. There is
+/// @par Ranks
+/// All ranks of `comm` call it, each with its own boxes and their ids: any of them on any rank, none on some. There is
 /// an id for each box, which no other box in the world has. Options may differ.
 ///
 /// @par Pairs
@@ -33,10 +34,12 @@ namespace boxstream::mpi {
 ///
 /// @par Method
 /// Space is divided into one part for each rank, with about as many boxes in each, by a Decomposition. Each box is sent
-/// once to each rank whose part it touches: most to one, an infinite one to all. Cost, with P ranks: about 512 P boxes
-/// are gathered on each rank as a sample. Then each rank sends at most P - 1 messages, and at most P copies of a box. A
-/// dozen collectives in all; the others have a number or two for each rank. Boxes that nothing separates, as when all
-/// lie at one point, are searched by one rank.
+/// once to each rank whose part it touches: most to one, an infinite one to all. Boxes that nothing separates, as when
+/// all lie at one point, are searched by one rank.
+///
+/// @par Cost
+/// With P ranks: about 512 P boxes are gathered on each rank as a sample. Then each rank sends at most P - 1 messages,
+/// and at most P copies of a box. A dozen collectives in all; the others have a number or two for each rank.
 ///
 /// @par Memory
 /// What the rank searches, with its ids, and 39 to 58 bytes for each of these boxes. Before that, of a round, what is
