@@ -258,13 +258,14 @@ class BOXSTREAM_API BasicWorld {
   /// Distances are compared exactly, without rounding. A NaN coordinate of `point` counts as distance 0 on its axis.
   std::size_t query_nearest(const S (&point)[3], Span<ProxyId> out) const;
 
-  /// Proxies whose boxes are nearer to `box` than the limit. The limit is `limit` at first, then the last result of the
-  /// visitor. Infinity is no limit.
-  /// Those roughly nearest come first. A visitor that returns the least distance so far sees few boxes but the nearest. The
-  /// order depends only on the history of calls. After a higher limit than before, boxes that were left out may stay
-  /// out. Distances: Euclidean, rounded down by some units in the last place, never above the exact ones. Always
-  /// finite: those beyond the largest finite number are that number. They depend only on the two boxes. No query
-  /// allocates.
+  /// Proxies whose boxes are nearer to `box` than the limit, roughly nearest first. The limit is `limit` at first, then
+  /// the last result of the visitor. Infinity is no limit. A visitor that returns the least distance so far sees few
+  /// boxes but the nearest. The order depends only on the history of calls. After a higher limit than before, boxes
+  /// that were left out may stay out.
+  ///
+  /// @par Distances
+  /// Euclidean, rounded down by some units in the last place, never above the exact ones. Always finite: those beyond
+  /// the largest finite number are that number. They depend only on the two boxes. No query allocates.
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
 
   /// The same for all pairs that group and mask accept, each once; `a` was created before `b`.
