@@ -3,6 +3,7 @@
 
 #include <boxstream/detector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -20,6 +21,15 @@ std::uint64_t all_move(Keeper& keeper, const CliffScene& scene) {
 /// The same ones each time.
 std::uint64_t few_move(Keeper& keeper, const CliffScene& scene) {
   keeper.move(scene.all().subspan(0, (scene.size() + 19) / 20), scene.frame(++keeper.turn));
+  keeper.update();
+  return 0;
+}
+
+/// The next ones each time.
+std::uint64_t others_move(Keeper& keeper, const CliffScene& scene) {
+  const std::size_t many = (scene.size() + 19) / 20, moved = keeper.turn++ * many;
+  const std::size_t first = moved % scene.size();
+  keeper.move(scene.all().subspan(first, std::min(many, scene.size() - first)), scene.frame(moved / scene.size() + 1));
   keeper.update();
   return 0;
 }
@@ -122,6 +132,7 @@ std::vector<CliffCall> frame_calls(std::string owner, std::unique_ptr<Keeper> (*
   };
   add("all move", "all boxes move by a tenth of their side, and pairs are brought up to date", all_move);
   add("5 % move", "the same of the first twentieth", few_move);
+  add("others move", "the same of the next twentieth each time", others_move);
   add("one moves", "the same of one box, another each time", one_moves);
   add("none moves", "all boxes are set to where they are", none_moves);
   add("all jump", "all boxes change places", all_jump);
