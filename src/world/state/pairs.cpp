@@ -2,6 +2,7 @@
 #include "world/state/pairs.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <functional>
 #include <limits>
@@ -84,9 +85,12 @@ void HeldPairs::exchange_few(Span<const PairKey> gone, Span<const std::uint32_t>
   assert(gone.size() == places.size());
   if (size() - gone.size() + added.size() > PairLists::most)
     throw std::length_error("boxstream: more than 2^32 - 64 pairs held");
-  if (added_.size() + removed_.size() + gone.size() + added.size() > thresholds.longest_side_list_of_updates) fold();
-  reserve_more(added_, added.size());
-  reserve_more(removed_, gone.size());
+  // As many as are worth a fold of so many pairs, at once: pairs that come and go now and then take no memory for long.
+  const std::size_t worth_folding = std::max<std::size_t>(16, std::bit_floor(lists_.size() / 8));
+  const std::size_t longest = std::min(worth_folding, thresholds.longest_side_list_of_updates);
+  if (added_.size() + removed_.size() + gone.size() + added.size() > longest) fold();
+  added_.reserve(std::max(longest, added_.size() + added.size()));
+  removed_.reserve(std::max(longest, removed_.size() + gone.size()));
   arrived.clear();
   reserve_more(arrived, added.size());
   std::size_t left = 0;
