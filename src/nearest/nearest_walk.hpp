@@ -229,7 +229,9 @@ class NearWalk {
   // A step goes and has at most 64 children; if its sides are on different levels, eight.
   static constexpr unsigned most_steps = 64 * (Bvh<S>::most_levels + 1);
 
+  /// Once the limit is over, steps stay where they are, and there is no room for those of all tops.
   void drain(Top a, Top b) {
+    if (limit_.is_over()) return;
     steps_[size_] = {0, a.at, b.at, a.level, b.level, static_cast<std::uint16_t>(size_)};
     ++size_;
     while (size_ != 0 && !limit_.is_over()) {

@@ -205,5 +205,38 @@ TYPED_TEST(Distance, C11_UnboundedBoxesAndNan) {
   EXPECT_CALLS(sorted(calls), (Calls{{0, 1}, {0, 2}, {0, 4}, {1, 2}, {1, 4}, {2, 4}}));
 }
 
+/// Many that came after the index was made, so that there are many ways into it: none is gone once the query has ended.
+TYPED_TEST(Distance, C10_NothingIsVisitedAfterTheEnd) {
+  using S = TypeParam;
+  const auto place = [](int i) { return cube<S>(S(2 * (i % 100)), S(2 * (i / 100)), 0, S(0.5)); };
+  Scene<S> scene;
+  Manager<S> manager, other;
+  for (int i = 0; i < 10000; ++i) manager.registerObject(&scene.add(place(i)));
+  for (int i = 10000; i < 13000; ++i) other.registerObject(&scene.add(place(i)));
+  int calls = 0;
+  const auto stop = [](Object<S>*, Object<S>*, void* count, S&) { return ++*static_cast<int*>(count) > 0; };
+  manager.distance(&scene[0], &calls, stop);
+  other.distance(&scene[10000], &calls, stop);
+  for (int i = 13000; i < 13400; ++i) manager.registerObject(&scene.add(place(i)));
+  for (int i = 13400; i < 13650; ++i) other.registerObject(&scene.add(place(i)));
+  for (const bool at_once : {true, false}) {
+    calls = 0;
+    manager.distance(&calls, stop);
+    EXPECT_EQ(calls, 1);
+    manager.distance(&other, &calls, stop);
+    EXPECT_EQ(calls, 2);
+    if (!at_once) continue;
+    // And where the callback ends it by its limit.
+    const auto touch = [](Object<S>*, Object<S>*, void* count, S& limit) {
+      ++*static_cast<int*>(count);
+      limit = 0;
+      return false;
+    };
+    manager.distance(&calls, touch);
+    manager.distance(&other, &calls, touch);
+    EXPECT_EQ(calls, 4);
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::fcl_test
