@@ -58,10 +58,20 @@ TYPED_TEST(TightBox, ContainsTheShapeAndIsNoLargerThanTheCube) {
   mesh->addTriangle(::fcl::Vector3<S>(1, 1, 1), ::fcl::Vector3<S>(4, 1, 2), ::fcl::Vector3<S>(2, 3, 1));
   mesh->addTriangle(::fcl::Vector3<S>(1, 1, 1), ::fcl::Vector3<S>(4, 1, 2), ::fcl::Vector3<S>(2, 2, 9));
   mesh->endModel();
+  const auto octahedron = std::make_shared<::fcl::BVHModel<::fcl::OBBRSS<S>>>();  // the corners of its box are far out
+  octahedron->beginModel();
+  for (int i = 0; i < 8; ++i)
+    octahedron->addTriangle(::fcl::Vector3<S>(i & 1 ? 1 : -1, 0, 0), ::fcl::Vector3<S>(0, i & 2 ? 1 : -1, 0),
+                            ::fcl::Vector3<S>(0, 0, i & 4 ? 1 : -1));
+  octahedron->endModel();
   const std::vector<std::shared_ptr<::fcl::CollisionGeometry<S>>> geometries = {
-      std::make_shared<::fcl::Box<S>>(S(0.1), S(0.2), S(3)),       std::make_shared<::fcl::Sphere<S>>(S(0.7)),
-      std::make_shared<::fcl::Ellipsoid<S>>(S(0.3), S(0.5), S(2)), std::make_shared<::fcl::Capsule<S>>(S(0.2), S(3)),
-      std::make_shared<::fcl::Cylinder<S>>(S(0.2), S(3)),          mesh};
+      std::make_shared<::fcl::Box<S>>(S(0.1), S(0.2), S(3)),
+      std::make_shared<::fcl::Sphere<S>>(S(0.7)),
+      std::make_shared<::fcl::Ellipsoid<S>>(S(0.3), S(0.5), S(2)),
+      std::make_shared<::fcl::Capsule<S>>(S(0.2), S(3)),
+      std::make_shared<::fcl::Cylinder<S>>(S(0.2), S(3)),
+      mesh,
+      octahedron};
   std::mt19937 random(3);
   std::uniform_real_distribution<double> u(-1, 1);
   for (const auto& geometry : geometries) {
@@ -135,6 +145,16 @@ TYPED_TEST(TightBox, AsTheSourceOfAManager) {
     manager.collide(&calls, count);
     manager.collide(&b, &calls, count);
     EXPECT_EQ(calls, tight ? 0U : 2U);
+  }
+}
+
+TYPED_TEST(TightBox, OfAMeshWithoutVerticesIsEmpty) {
+  using S = TypeParam;
+  Object<S> object(std::make_shared<::fcl::BVHModel<::fcl::OBBRSS<S>>>());
+  for (const S turn : {S(0), S(1)}) {
+    object.setTransform(::fcl::Quaternion<S>(1, turn, 0, 0).normalized(), ::fcl::Vector3<S>(1, 2, 3));
+    const FclBox<S> box = tightBox<S>(object);
+    for (int d = 0; d < 3; ++d) EXPECT_GT(box.min_[d], box.max_[d]);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <boxstream/cxx17.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,7 +19,7 @@ namespace boxstream::fcl {
 ///
 /// computeAABB() gives every object that is turned a cube, around the sphere around its local box. This is the box of
 /// the turned local box instead, and for spheres, ellipsoids, capsules and cylinders that of the shape itself, rounded
-/// outward. It is never larger than the cube but for rounding.
+/// outward. It is never larger than the cube but for rounding. The box of a mesh without vertices is empty.
 ///
 /// It takes the object's transform and local box as they are now: computeAABB() need not have been called, and what
 /// was written into the object's box, to make it larger, does not count. Planes, half-spaces and octrees keep
@@ -30,6 +31,8 @@ template <class S>
   if (type == ::fcl::GEOM_PLANE || type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_OCTREE) return object.getAABB();
 
   const boxstream::detail::DefaultFloatEnvironment environment;
+  for (int i = 0; i < 3; ++i)
+    if (geometry.aabb_local.min_[i] > geometry.aabb_local.max_[i]) return ::fcl::AABB<S>();  // of an empty mesh
   const ::fcl::Transform3<S>& transform = object.getTransform();
   const ::fcl::Vector3<S> half = (geometry.aabb_local.max_ - geometry.aabb_local.min_) / 2;
   const ::fcl::Vector3<S> middle = transform * ((geometry.aabb_local.min_ + geometry.aabb_local.max_) / 2).eval();
@@ -47,7 +50,7 @@ template <class S>
     else if (type == ::fcl::GEOM_CYLINDER)
       reach = z * half[2] + std::hypot(x, y) * half[0];
     else
-      reach = x * half[0] + y * half[1] + z * half[2];
+      reach = std::min(x * half[0] + y * half[1] + z * half[2], geometry.aabb_radius);
     constexpr S slack = 8 * std::numeric_limits<S>::epsilon();
     const S sum = std::abs(middle[i]) + reach + geometry.aabb_local.min_.cwiseAbs().maxCoeff();
     box.min_[i] = middle[i] - reach - slack * sum;
