@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,7 +20,7 @@ struct Interval {
 constexpr double share = 8 * epsilon;
 
 /// The bounds of a shape along one world axis, relative to its own origin, in plain arithmetic. `row` is the axis in
-/// the frame of the shape.
+/// the frame of the shape. Its length may differ from one by rounding; what rounds a shape is not scaled by it.
 struct Reach {
   const Vec& row;
 
@@ -28,11 +29,11 @@ struct Reach {
     return {-reach, reach};
   }
   Interval operator()(const Sphere& sphere) const {
-    const double reach = sphere.radius * row.norm();
+    const double reach = sphere.radius * std::max(row.norm(), 1.0);
     return {-reach, reach};
   }
   Interval operator()(const Capsule& capsule) const {
-    const double reach = capsule.radius * row.norm() + std::abs(row.z()) * (capsule.height / 2);
+    const double reach = capsule.radius * std::max(row.norm(), 1.0) + std::abs(row.z()) * (capsule.height / 2);
     return {-reach, reach};
   }
   Interval operator()(const Cylinder& cylinder) const {

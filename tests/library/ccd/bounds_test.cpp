@@ -87,5 +87,21 @@ TEST(Poses, FromEigensTransforms) {
   EXPECT_EQ(sizeof(ccd::Pose), 12 * sizeof(double));
 }
 
+/// What rounds a shape is as large whatever a matrix that is a rotation but for rounding makes of it.
+TEST(Bounds, HoldRoundShapesUnderMatricesThatAreRotationsButForRounding) {
+  for (const double scale : {0.99996, 1.00004}) {
+    ccd::Pose one, other;
+    one.rotation *= scale;
+    other.rotation *= scale;
+    for (const ccd::Shape& shape : {ccd::Shape{ccd::Sphere{1}}, ccd::Shape{ccd::Capsule{1, 1}}})
+      for (const double apart : {1.9999, 1.99995, 1.99999}) {
+        other.translation.x() = apart;
+        const auto answer = intersect(shape, one, shape, other);
+        if (!answer.intersects) continue;
+        EXPECT_TRUE(overlaps(bounds(shape, one), bounds(shape, other))) << scale << ", " << apart;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::ccd_test
