@@ -183,7 +183,8 @@ class BOXSTREAM_API BasicWorld {
 
   /// The same for callers that know what has changed: pairs in `begin` touch now, and held ones in `end` no longer do.
   /// No other pair has changed. Nothing is searched, and no box is read: those that have moved are searched for by the
-  /// next `update`. Pairs that are held already, or are not, or of stale ids, are left out.
+  /// next `update`. Pairs that are held already, or are not, or of stale ids, are left out. Group and mask are not
+  /// tested: `begin` has pairs that they accept.
   WorldStats update_told(Span<const ProxyPair> begin, Span<const ProxyPair> end, ProxyPairFilter accept);
 
   /// The same for one pair between updates, as by `begin_pairs_of`: held from now on, it is not reported as begun.
@@ -228,8 +229,8 @@ class BOXSTREAM_API BasicWorld {
   /// Begins pairs of one proxy now instead of in the next update.
   /// Each new pair is held from now on and passed to `begin`. No later update reports it as begun.
   /// `accept` is called for overlapping pairs that are not held and that group and mask accept. With `accept_alone`
-  /// group and mask are not tested: for filters that the World does not have yet. Pairs passed on before a
-  /// std::bad_alloc stay held.
+  /// group and mask are not tested: for filters that the World does not have yet. If it never gets them, the pair ends
+  /// at some later update. Pairs passed on before a std::bad_alloc stay held.
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
                       bool accept_alone = false);
 

@@ -71,7 +71,7 @@ struct RaySlabs {
     constexpr S inf = std::numeric_limits<S>::infinity();
     for (const S x : inverse) length = x == 0 && length > 0 ? 0 : length;
     for (int d = 0; d < 3; ++d) {
-      parallel[d] = inverse[d] == inf || inverse[d] == -inf;
+      parallel[d] = inverse[d] == inf || inverse[d] == -inf || inverse[d] == 0;  // the last: it goes nowhere
       const S turns = inverse[d] < 0 ? -inverse[d] : inverse[d];
       const bool is_point = reach_lo[d] == 0 && reach_hi[d] == 0;
       is_long[d] = length > (is_point ? finite : finite / 4) * turns ||

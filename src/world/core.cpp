@@ -63,9 +63,11 @@ void BasicWorld<S>::clear() {
   impl_->proxies_.clear();
   impl_->pairs_.clear();
   impl_->search_.fat_boxes().clear();
+  impl_->search_.choice() = SearchChoice();
   impl_->index_.release();
   impl_->rooms_ = Rooms<S>();
   impl_->forget_changes();
+  impl_->most_begun_ = ~std::uint64_t{0};
   impl_->holds_much_ = true;  // perhaps
 }
 
@@ -144,6 +146,7 @@ void WorldParts<S>::make_room(std::size_t more) {
 template <class S>
 void WorldParts<S>::drop_tombstones() {
   is_referenced_.assign(proxies_.ranks(), false);
+  proxies_.reserve_to_compact();
   pairs_.for_each([this](PairKey key) {
     is_referenced_[first_of(key)] = is_referenced_[second_of(key)] = true;
     return true;

@@ -24,9 +24,12 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
     for_each_index(bits, words, [&](std::uint32_t rank) { return visit(impl_->proxies_.id(rank)); });
     return;
   }
-  impl_->index_.fresh(impl_->proxies_).for_each_overlap(box, [&](std::uint32_t slot) {
+  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
+  DefaultFloatEnvironment environment;
+  bvh.for_each_overlap(box, [&](std::uint32_t slot) {
     const std::uint32_t rank = impl_->proxies_.rank_of_slot(slot);
-    return !overlap_by_keys(box, impl_->proxies_.box(rank)) || visit(impl_->proxies_.id(rank));
+    if (!overlap_by_keys(box, impl_->proxies_.box(rank))) return true;
+    return environment.outside([&] { return visit(impl_->proxies_.id(rank)); });
   });
 }
 

@@ -68,7 +68,7 @@ class ProxyTable {
     reserve_more(flags_, more);
     reserve_more(slots_, new_slots(more));
     dirty_.resize(boxes_.capacity());
-    if (boxes_.capacity() > thresholds.most_dead) remap_.reserve(boxes_.capacity());  // fewer are never compacted
+    if (boxes_.capacity() > thresholds.most_dead) remap_.reserve(boxes_.capacity());  // see reserve_to_compact
     free_slots_.reserve(slots_.capacity());
     if (!few_.is_kept()) return;
     if (boxes_.size() + more > FewBoxes<S>::most)
@@ -295,6 +295,8 @@ class ProxyTable {
   /// Upper bound of all slots after `more` creations.
   std::size_t slots_after(std::size_t more) const { return slots_.size() + new_slots(more); }
 
+  /// Few proxies are compacted on request alone, so that `reserve` does not do this for them. May throw.
+  void reserve_to_compact() { remap_.reserve(boxes_.size()); }
   /// Drops the tombstones for which `keep(rank)` is false, and returns the new rank of each old one (`none` if
   /// dropped).
   template <class Keep>

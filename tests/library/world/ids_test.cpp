@@ -108,6 +108,7 @@ TEST(Ids, ClearedWorldRepeatsItsHistory) {
     return log;
   };
   const auto first = run();
+  world.set_max_begun(1);
   world.clear();
   EXPECT_EQ(world.size(), 0u);
   EXPECT_EQ(world.pair_count(), 0u);

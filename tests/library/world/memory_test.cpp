@@ -257,6 +257,29 @@ TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
     }
 }
 
+TEST(Memory, FewThatShrinkMayFail) {
+  for (const std::size_t count : {2u, 5u, 16u, 17u, 40u})
+    for (std::int64_t first = 0; first < 12; ++first) {
+      SCOPED_TRACE(std::to_string(count) + " boxes, allocation " + std::to_string(first));
+      World world;
+      std::vector<ProxyId> ids;
+      for (std::size_t i = 0; i < count; ++i) ids.push_back(world.create(cube(float(i) / 2, 0)));
+      world.update();
+      world.destroy(ids[0]);
+      if (count > 16) world.update();
+      heap_watch::fail_at(first);
+      try {
+        world.shrink_to_fit();
+      } catch (const std::bad_alloc&) {
+      }
+      heap_watch::stop_failing();
+      ASSERT_NO_THROW(world.validate());
+      world.update();
+      ASSERT_NO_THROW(world.validate());
+      ASSERT_EQ(world.pair_count(), count == 2 ? 0 : 2 * count - 5);
+    }
+}
+
 void allocates_nothing_in_steady_state(detail::SearchMode mode, int warm_up) {
   detail::WorldCore<float> world({}, mode);
   std::vector<ProxyId> ids;

@@ -158,7 +158,7 @@ class Model {
         if (distance >= -most && distance <= most) return distance * ray.inverse_direction[d];
         return (bound / 4 - extent / 4 - ray.origin[d] / 4) * (4 * ray.inverse_direction[d]);
       };
-      if (std::abs(ray.inverse_direction[d]) == std::numeric_limits<S>::infinity()) {
+      if (ray.inverse_direction[d] == 0 || std::abs(ray.inverse_direction[d]) == std::numeric_limits<S>::infinity()) {
         if (below > 0 || above < 0) return false;
         continue;
       }

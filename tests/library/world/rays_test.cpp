@@ -123,5 +123,27 @@ TYPED_TEST(Rays, AreASupersetOfTheExactTestButForRounding) {
   EXPECT_GT(inside, 1000u);
 }
 
+/// However many boxes there are: an infinite direction leads nowhere, from wherever.
+TYPED_TEST(Rays, OfInfiniteDirectionsAreTheirOrigins) {
+  using S = TypeParam;
+  constexpr S inf = std::numeric_limits<S>::infinity();
+  for (const int count : {1, 30, 700}) {
+    BasicWorld<S> world;
+    for (int i = 0; i < count; ++i)
+      world.create({{S(3 * i), -1, -1}, {S(3 * i + 1), 1, 1}});  // the origin of the second ray is in the first
+    for (const S from : {S(-5), S(0.5)})
+      for (const S along : {inf, -inf})
+        for (const S across : {S(0), S(1)}) {
+          int hits = 0;
+          world.query_ray(BasicRay<S>::along({from, 0, 0}, {along, across, 0}, 1), [&](ProxyId, S enter, S length) {
+            ++hits;
+            EXPECT_EQ(enter, S(0));
+            return length;
+          });
+          EXPECT_EQ(hits, from > 0 ? 1 : 0) << count << " boxes, from " << from << " along " << along;
+        }
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::tests
