@@ -78,7 +78,7 @@ class BOXSTREAM_API BasicBoxIndex {
   /// first; in no particular order.
   void query_boxes(Span<const Box> boxes, std::vector<Pair>& found) const;
 
-  /// As World::query_planes.
+  /// As World::query_planes, but that it allocates.
   void query_planes(Span<const BasicPlane<S>> planes, BoxVisitor visit) const;
 
   /// As World::query_ray.

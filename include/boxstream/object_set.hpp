@@ -90,7 +90,7 @@ class BOXSTREAM_API BasicObjectSet {
   /// their own thread. Null: everything runs on the calling thread.
   explicit BasicObjectSet(Executor* executor = nullptr) noexcept;
   /// With `Method::hybrid` all pairs of one set, or of two, are found by the paper's tree, however few objects there
-  /// are.
+  /// are; but not those of two sets in the order of places, nor so many of one set that they are not held.
   explicit BasicObjectSet(const DetectorOptions& options) noexcept;
   ~BasicObjectSet();
   /// A moved-from set can only be assigned to or destroyed.

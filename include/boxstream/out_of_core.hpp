@@ -56,7 +56,7 @@ struct OutOfCoreOptions {
 };
 
 struct OutOfCoreStats {
-  std::uint64_t boxes = 0;          ///< of the reader
+  std::uint64_t boxes = 0;          ///< of the reader, as far as it was read
   std::uint64_t invalid = 0;        ///< of these, boxes with a NaN or min > max, which pair with nothing
   std::uint64_t pairs = 0;          ///< passed to the sink
   std::uint64_t boxes_read = 0;     ///< from the reader, all passes together

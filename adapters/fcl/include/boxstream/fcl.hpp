@@ -159,9 +159,10 @@ class CollisionManager : public ::fcl::BroadPhaseCollisionManager<S> {
 
   // What follows is not part of FCL's interface.
 
-  /// With true, all pairs come in the order of registration: of the managed object, or of the objects of this manager
-  /// and then of the other one. All hits of an object are then found and sorted before its first callback, even if that
-  /// ends the query. With another manager that is done for each object of this one, and takes longer.
+  /// With true, all pairs of `collide` come in the order of registration: of the managed object, or of the objects of
+  /// this manager and then of the other one. Those of `distance` come as before. All hits of an object are then found
+  /// and sorted before its first callback, even if that ends the query. With another manager that is done for each
+  /// object of this one, and takes longer.
   void setRegistrationOrder(bool on) {
     order_ = on ? Set::Order::places : Set::Order::any;
   }

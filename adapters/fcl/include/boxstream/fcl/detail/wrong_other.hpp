@@ -24,7 +24,8 @@ inline void warn_of_wrong_other(void* caller) {
   std::fprintf(
       stderr,
       "boxstream::fcl: a manager of FCL was given one of boxstream as `other`. It takes every manager for one of "
-      "its own type, and crashes now. Ask the one of boxstream instead, which takes managers of any type.\n");
+      "its own type, and crashes now if it is not empty. Ask the one of boxstream instead, which takes managers of any "
+      "type.\n");
 }
 
 }  // namespace boxstream::fcl::detail
