@@ -87,7 +87,7 @@ std::string row(const std::string& name, std::size_t n) {
 int run_model(int argc, char** argv) {
   CLI::App app("Prints predictions of a model of the engine's cost and measurements, as a table in Markdown.");
   std::vector<std::string> cases{"U"};
-  std::vector<double> sizes{1e2, 3e2, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 1e7};
+  std::vector<double> sizes{1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 1e7};
   std::string page;
   app.add_option("--case", cases, "batches")->delimiter(',')->capture_default_str();
   app.add_option("--n", sizes, "numbers of boxes")->delimiter(',')->check(CLI::Range(1.0, 1e8));

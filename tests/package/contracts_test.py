@@ -6,7 +6,8 @@ import re
 import sys
 
 LABELS = ("Answers|Balance|Boxes|Builds|Bytes|Callbacks|Contacts|Coordinates|Cost|Distance|Distances|Errors|Files|Filters|"
-          "Floating point|Ids|Memory|Method|Names|Objects|Octrees|Order|Pairs|Queries|Rules|Shapes|Speed|Stop|Threads")
+          "Call|Floating point|Floating-point environment|Ids|Machines|Made|Memory|Method|Names|Objects|Octrees|Order|Pairs|Queries|"
+          "Ranks|Reasons|Rules|Sent|Shapes|Speed|Stop|Threads|Use")
 MOST_LINES = 14
 MOST_LABELS_IN_TEXT = 2
 

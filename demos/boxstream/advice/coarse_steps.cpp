@@ -368,7 +368,7 @@ double approach(const Given& given, const Body& body, double half_thickness) {
 
 Found fast_meeting(const Given& given) {
   const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
-  // What is fixed is pushed nowhere, if depth is no speed: landings.hpp is about that.
+  // What is fixed is pushed nowhere, if depth is no speed: landings.cpp is about that.
   const bool splits = given.subject.scene.solver.split_impulse;
   const auto is_pushed = [&](const Body& body) { return !splits || body.traits.type != scenes::BodyType::fixed; };
   const auto share = [&](const Body& body) {
