@@ -32,6 +32,8 @@ std::vector<::fcl::Vector3<S>> surface(const ::fcl::CollisionGeometry<S>& geomet
   const ::fcl::Vector3<S> half = (geometry.aabb_local.max_ - geometry.aabb_local.min_) / 2;
   const ::fcl::Vector3<S> middle = (geometry.aabb_local.max_ + geometry.aabb_local.min_) / 2;
   const ::fcl::NODE_TYPE type = geometry.getNodeType();
+  if (const auto* const mesh = dynamic_cast<const ::fcl::BVHModel<::fcl::OBBRSS<S>>*>(&geometry))
+    return {mesh->vertices, mesh->vertices + mesh->num_vertices};
   for (int i = 0; i <= 32; ++i)
     for (int j = 0; j < 32; ++j) {
       const S up = std::acos(S(-1)) * S(i) / 32, round = std::acos(S(-1)) * S(j) / 16;

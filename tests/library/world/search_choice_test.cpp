@@ -37,7 +37,7 @@ SearchState kept(std::size_t dirty, std::size_t exits = 0) {
 TEST(SearchPrices, AreThoseOfTheList) {
   EXPECT_EQ(prices::all(1000), 1000u);
   EXPECT_EQ(prices::probe(1000, 10), 20u);
-  EXPECT_EQ(prices::beside(1000, 5), 80u);
+  EXPECT_EQ(prices::beside(1000, 5), 104u);
   EXPECT_EQ(prices::beside(1000, 100), 900u);
   EXPECT_EQ(prices::pass(100, 900), 100u);
   EXPECT_GT(prices::pass(thresholds.in_near_caches, 0), prices::pass(thresholds.in_near_caches - 1, 0));
