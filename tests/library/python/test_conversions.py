@@ -287,6 +287,7 @@ def test_numpys_booleans():
     assert np.array_equal(boxstream.find_pairs(BOXES, closed=np.True_), boxstream.find_pairs(BOXES))
     with pytest.raises(TypeError, match="expected True or False"):
         boxstream.find_pairs(BOXES, closed=np.array([True]))
+    assert len(boxstream.find_neighbours(BOXES, both=np.False_)[1]) == len(boxstream.find_pairs(BOXES))
 
 
 def test_a_world_warns_of_layouts():
