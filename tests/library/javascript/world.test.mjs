@@ -177,13 +177,18 @@ test("bounds, dtype and sticky filters", () => {
   assert.equal(world.update().pairs, 1);
 });
 
-test("pairs and events are the caller's, and the same until the next update", () => {
+test("pairs and events are one array until the next update, which leaves it as it is", () => {
   const world = new World();
   const ids = world.create(new Float32Array(18));
   world.update();
-  const { begun, pairs } = world;
-  assert.equal(world.begun, begun);
+  const { begun, ended, pairs } = world;
   world.destroy(ids);
+  assert.equal(world.begun, begun);
+  assert.equal(world.ended, ended);
+  assert.equal(world.pairs, pairs);
+  pairs[0] = 7;
+  assert.equal(world.pairs[0], 7);
+  pairs[0] = 1;
   world.update();
   assert.deepEqual([...begun], [1, 2, 1, 3, 2, 3]);
   assert.deepEqual(pairs, begun);
