@@ -15,6 +15,7 @@ static_assert(sizeof(Aabb) == 6 * sizeof(float) && sizeof(Aabb64) == 6 * sizeof(
 
 enum Scalar : int { float32 = 0, float64 = 1, int32 = 2 };
 
+/// Of all but boxes of searches, which may be of int32: see `boxes_of`.
 inline void check(Scalar scalar) {
   if (scalar != float32 && scalar != float64) throw std::invalid_argument("a scalar is 0, float32, or 1, float64");
 }
