@@ -27,9 +27,11 @@ auto with_scalar(Scalar scalar, Use use) {
   return scalar == float32 ? use(float{}) : use(double{});
 }
 
-/// The least number of S that is not below `x`; a NaN stays one.
+/// The least number of S that is not below `x`; a NaN stays one, and what is negative stays negative: in a ray of
+/// length -0 there is its origin.
 template <class S>
-S rounded_up(double x) {
+S length_of(double x) {
+  if (x < 0) return -1;
   const S nearest = static_cast<S>(x);
   return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
 }
