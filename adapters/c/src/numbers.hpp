@@ -31,11 +31,14 @@ S rounded_up(double x) {
   return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
 }
 
-/// A limit or a length, rounded so that nothing is lost.
+/// A limit or a length, rounded so that nothing is lost. A negative one, which nothing is within, stays negative:
+/// rounded up it could be -0, which a ray that starts inside of a box is within.
 template <class S>
 S limit_of(double x) {
   const DefaultFloatEnvironment environment;
-  return computed(rounded_up<S>(computed(x)));
+  const double given = computed(x);
+  const bool is_negative = computed(given < 0);
+  return is_negative ? S{-1} : computed(rounded_up<S>(given));
 }
 
 template <class S>
@@ -64,9 +67,10 @@ struct Point {
 template <class S>
 BasicRay<S> ray_of(const double* origin, const double* direction, double length) {
   const Point<S> from(origin), along(direction);
+  const S limit = limit_of<S>(length);
   const DefaultFloatEnvironment environment;
-  BasicRay<S> ray = BasicRay<S>::along(from.at, {computed(along.at[0]), computed(along.at[1]), computed(along.at[2])},
-                                       rounded_up<S>(computed(length)));
+  BasicRay<S> ray =
+      BasicRay<S>::along(from.at, {computed(along.at[0]), computed(along.at[1]), computed(along.at[2])}, limit);
   for (S& inverse : ray.inverse_direction) inverse = computed(inverse);
   ray.length = computed(ray.length);
   return ray;

@@ -5,7 +5,7 @@
 // numbers a box, min x, y, z and max x, y, z; of two dimensions four, of one two. A box with a NaN or with min > max is invalid and pairs with nothing; infinite bounds are legal.
 // Arguments of a wrong type, and options of a wrong name, are a TypeError; those of a wrong length or value, and memory
 // that runs out, a RangeError. Objects then stay as they were. Arrays are copied in and copied out: results are the
-// caller's.
+// caller's. Pairs of a World are copied once after each update: until the next, all who ask get the same array.
 
 declare global {
   interface SymbolConstructor {
@@ -188,7 +188,10 @@ export class World extends Resource {
   /** A box around all valid boxes; min > max if there are none. */
   get bounds(): Floats;
 
-  /** Pairs that began in the last update. */
+  /**
+   * Pairs that began in the last update. This, `ended` and `pairs` are the same array each time until the next update or
+   * `clear`: whoever writes to it or transfers it does so for all who ask until then. Later updates do not change it.
+   */
   get begun(): Float64Array;
   /** Pairs that ended in the last update. */
   get ended(): Float64Array;

@@ -18,7 +18,7 @@ namespace boxstream::javascript {
 
 enum Status : std::int32_t { ok = 0, no_memory = 1, failed = 2 };
 
-/// The layout is that which answer.js reads.
+/// The layout is that which module.js reads.
 struct Answer {
   struct Part {
     const void* data = nullptr;

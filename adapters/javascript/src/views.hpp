@@ -15,6 +15,7 @@ static_assert(sizeof(Aabb) == 6 * sizeof(float) && sizeof(Aabb64) == 6 * sizeof(
 
 enum Scalar : int { float32 = 0, float64 = 1, int32 = 2 };
 
+/// Of all but boxes of searches, which may be of int32: see `boxes_of`.
 inline void check(Scalar scalar) {
   if (scalar != float32 && scalar != float64) throw std::invalid_argument("a scalar is 0, float32, or 1, float64");
 }
@@ -26,9 +27,11 @@ auto with_scalar(Scalar scalar, Use use) {
   return scalar == float32 ? use(float{}) : use(double{});
 }
 
-/// The least number of S that is not below `x`; a NaN stays one.
+/// The least number of S that is not below `x`; a NaN stays one, and what is negative stays negative: in a ray of
+/// length -0 there is its origin.
 template <class S>
-S rounded_up(double x) {
+S length_of(double x) {
+  if (x < 0) return -1;
   const S nearest = static_cast<S>(x);
   return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
 }

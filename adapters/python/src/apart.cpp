@@ -25,7 +25,12 @@ namespace {
 class Job {
  public:
   explicit Job(std::function<void()> work) : work_(std::move(work)), thread_([this] { run(); }) {}
-  ~Job() { thread_.join(); }
+  ~Job() {
+    if (getpid() == process_)
+      thread_.join();
+    else  // a child has no such thread: it can be neither joined nor let go
+      static_cast<void>(new std::thread(std::move(thread_)));
+  }
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 

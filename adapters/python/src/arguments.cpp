@@ -31,6 +31,12 @@ S number_of(py::handle given, const char* name) {
   const double value = PyFloat_AsDouble(given.ptr());
   const boxstream::detail::DefaultFloatEnvironment environment;
   if (PyErr_Occurred() == nullptr) return static_cast<S>(value);
+  if (PyErr_ExceptionMatches(PyExc_OverflowError) != 0) {
+    PyErr_Clear();
+    throw py::value_error(std::string(name) + ": expected a number that float64 has, got one that is too large");
+  }
+  // What else the object's own code raises, such as KeyboardInterrupt, is not about its type.
+  if (PyErr_ExceptionMatches(PyExc_TypeError) == 0) throw py::error_already_set();
   PyErr_Clear();
   refuse_type(name, "a number", given);
 }

@@ -270,10 +270,11 @@ Wanted boxes_of(const BoxFormat& format) {
   return wanted;
 }
 
-Wanted boxes_as(Scalar scalar, const char* owner, py::ssize_t dimensions) {
+Wanted boxes_as(Scalar scalar, const char* owner, py::ssize_t dimensions, bool may_copy) {
   Wanted wanted{{{2 * dimensions}, {2, dimensions}}};
   wanted.owner = owner;
   wanted.scalar = scalar;
+  wanted.may_copy = may_copy;
   return wanted;
 }
 
@@ -289,8 +290,9 @@ Boxes::Boxes(py::handle given, const char* name, const BoxFormat& format) : numb
   check(name, format.invalid);
 }
 
-Boxes::Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner, int dimensions)
-    : numbers_(given, name, boxes_as(scalar, owner, dimensions)) {
+Boxes::Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner, int dimensions,
+             bool may_copy)
+    : numbers_(given, name, boxes_as(scalar, owner, dimensions, may_copy)) {
   if (dimensions < 3) pad(dimensions);
   check(name, invalid);
 }

@@ -91,8 +91,9 @@ class Boxes {
  public:
   /// Of any type.
   Boxes(py::handle given, const char* name, const BoxFormat& format);
-  /// Of the type of `owner`.
-  Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner, int dimensions = 3);
+  /// Of the type of `owner`. Those of fewer dimensions are copied in any case.
+  Boxes(py::handle given, const char* name, Invalid invalid, Scalar scalar, const char* owner, int dimensions = 3,
+        bool may_copy = true);
 
   const py::array& array() const { return numbers_.array(); }
   std::size_t size() const { return numbers_.size(); }

@@ -26,7 +26,7 @@ std::shared_ptr<const Boxes> boxes_of(py::handle given, const BoxFormat& format)
   auto boxes = std::make_shared<const Boxes>(given, "boxes", format);
   if (boxes->scalar() == Scalar::float32 || boxes->scalar() == Scalar::float64) return boxes;
   return std::make_shared<const Boxes>(boxes->array(), "boxes", format.invalid, Scalar::float64, owner,
-                                       format.dimensions);
+                                       format.dimensions, format.may_copy);
 }
 
 std::variant<BoxIndex, BoxIndex64> built(const std::shared_ptr<const Boxes>& boxes) {

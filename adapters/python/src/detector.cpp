@@ -59,7 +59,7 @@ py::tuple PyDetector::find_pairs_in_sets(SearchPointer search, py::handle offset
 
 py::tuple PyDetector::find_neighbours(SearchPointer search, py::handle both, py::handle dtype) {
   const Indices indices = indices_of(dtype);
-  const Directions directions = both.cast<bool>() ? Directions::both : Directions::one;
+  const Directions directions = flag_of(both, "both") ? Directions::both : Directions::one;
   const auto found = std::make_shared<Neighbours>();
   run_whole(search->boxes(), [search, found, directions](Detector& detector, GoesOn) {
     return search->has_other() ? detector.find_neighbours(search->a(), search->b(), *found, search->rules())

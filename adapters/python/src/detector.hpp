@@ -38,7 +38,10 @@ class PyDetector {
   std::uint64_t stream_near_pairs(const NearSearch& search, py::handle callback, py::handle block, py::handle dtype);
 
   const Stats& stats() const { return stats_; }
-  std::size_t scratch_bytes() const { return detector_.scratch_bytes(); }
+  std::size_t scratch_bytes() {
+    const Usage::Read read(usage_);
+    return detector_.scratch_bytes();
+  }
   void shrink_to_fit() {
     const Usage::Change change(usage_);
     detector_.shrink_to_fit();

@@ -145,7 +145,8 @@ void add_detector(py::module_& module) {
       .def_property_readonly(
           "stats", [](const PyDetector& self) { return self.stats(); },
           "Stats: of the last search that ended without an exception.")
-      .def_property_readonly("scratch_bytes", &PyDetector::scratch_bytes, "int: bytes of scratch memory that it keeps.")
+      .def_property_readonly("scratch_bytes", &PyDetector::scratch_bytes,
+                             "int: bytes of scratch memory that it keeps. RuntimeError while it searches.")
       .def("shrink_to_fit", &PyDetector::shrink_to_fit,
            "shrink_to_fit()\n\nGives all scratch memory back; the next search takes it anew.");
   add_searches(detector);

@@ -54,7 +54,9 @@ class Rays {
     require_as_many(directions_.size(), "directions");
     if (lengths.is_none()) return;
     if (is_one_number(lengths)) {
-      length_ = with_float(taken.scalar, [&](auto s) -> double { return number_of<decltype(s)>(lengths, "lengths"); });
+      const double given = number_of<double>(lengths, "lengths");
+      const boxstream::detail::DefaultFloatEnvironment environment;
+      length_ = given < 0 ? -1 : given;  // a float could be -0, and in a ray of that length there is its origin
       return;
     }
     lengths_.emplace(lengths, "lengths", taken.wanted({}));

@@ -44,6 +44,11 @@ void require_live(const BasicWorld<S>& world, Span<const ProxyId> ids) {
                                   std::to_string(i) + "]");
 }
 
+/// Before anything changes: Python may turn the warning into an exception.
+void warn_as_asked(Invalid policy, const Boxes& boxes) {
+  if (policy == Invalid::warn) warn_of_boxes(boxes, nullptr, invalid_of(boxes), boxes.size());
+}
+
 }  // namespace
 
 PyWorld::PyWorld(py::handle dtype, py::handle executor, WorldOptions options)
@@ -59,22 +64,24 @@ py::array PyWorld::create(py::handle boxes, py::handle groups, py::handle masks,
   if (!users.is_none()) numbers = integers_of<std::int64_t>(users, "users", given.size());
   const Span<const std::uint64_t> bits(reinterpret_cast<const std::uint64_t*>(numbers.data()), numbers.size());
   std::vector<ProxyId> ids(given.size());
+  warn_as_asked(policy, given);
   change([&]<class S>(BasicWorld<S>& world) {
     changed_ = true;
     journal_.reserve(ids.size());
     world.create(given.as<S>(), filters, ids, bits);
     journal_.note(ids);
   });
-  if (policy == Invalid::warn) warn_of_boxes(given, nullptr, invalid_of(given), given.size());
   return array_of<std::uint64_t>(std::move(ids));
 }
 
 std::size_t PyWorld::move(py::handle ids, py::handle boxes, py::handle invalid) {
   const std::vector<ProxyId> moved = ids_of(ids, "ids");
-  const Boxes given(boxes, "boxes", invalid_policy(invalid), scalar(), "the World has");
+  const Invalid policy = invalid_policy(invalid);
+  const Boxes given(boxes, "boxes", policy, scalar(), "the World has");
   if (given.size() != moved.size())
     throw py::value_error("boxes: expected one for each of " + std::to_string(moved.size()) + " ids, got " +
                           std::to_string(given.size()));
+  warn_as_asked(policy, given);
   return change([&]<class S>(BasicWorld<S>& world) {
     changed_ = true;
     return world.move(moved, given.as<S>());

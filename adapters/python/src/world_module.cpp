@@ -167,13 +167,14 @@ Returns an array of uint64, shape (n, count): ids, 0 where there are no more.)")
 
 void add_world(py::module_& module) {
   WorldClass world(module, "World", about);
-  world.def(
-      py::init([](py::handle dtype, py::handle executor, bool sticky_filters, py::handle method, py::handle cutoff) {
-        return std::make_unique<PyWorld>(dtype, executor,
-                                         WorldOptions{nullptr, sticky_filters, method_of(method), cutoff_of(cutoff)});
-      }),
-      py::arg("dtype") = "float32", py::arg("executor") = py::none(), py::arg("sticky_filters") = false, py::kw_only(),
-      py::arg("method") = "planned", py::arg("cutoff") = 0);
+  world.def(py::init([](py::handle dtype, py::handle executor, py::handle sticky_filters, py::handle method,
+                        py::handle cutoff) {
+              return std::make_unique<PyWorld>(dtype, executor,
+                                               WorldOptions{nullptr, flag_of(sticky_filters, "sticky_filters"),
+                                                            method_of(method), cutoff_of(cutoff)});
+            }),
+            py::arg("dtype") = "float32", py::arg("executor") = py::none(), py::arg("sticky_filters") = false,
+            py::kw_only(), py::arg("method") = "planned", py::arg("cutoff") = 0);
   add_stored(world);
   add_changes(world);
   add_contents(world);

@@ -268,6 +268,43 @@ TEST(Doubles, TheLengthOfARayIsNotShortened) {
   }
 }
 
+/// Rounded up to a float a negative number may be -0, which is none.
+TEST(Doubles, ANegativeNumberStopsHoweverSmallItIs) {
+  const Boxes boxes{{-1, -1, -1, 1, 1, 1}, {-2, -2, -2, 2, 2, 2}, {0, 0, 0, 3, 3, 3}};
+  std::vector<boxstream_id> ids;
+  const World world = make_world(boxes, ids);
+  const double origin[] = {0, 0, 0}, direction[] = {1, 0, 0}, nan = std::numeric_limits<double>::quiet_NaN();
+  const auto hits = [&](double length, double answer) {
+    int seen = 0;
+    query_ray(world, origin, direction, length, [&](boxstream_id, double, double) { return ++seen, answer; });
+    return seen;
+  };
+  const auto near = [&](double limit, double answer) {
+    int seen = 0;
+    query_near(world, {0, 0, 0, 0, 0, 0}, limit, [&](boxstream_id, double) { return ++seen, answer; });
+    return seen;
+  };
+  const auto pairs = [&](double answer) {
+    int seen = 0;
+    near_pairs(world, inf, [&](boxstream_id_pair, double) { return ++seen, answer; });
+    return seen;
+  };
+  for (const double negative : {-inf, -1.0, -1e-30, -1e-45, -1e-46, -1e-50, -1e-310, -0x1p-1074}) {
+    EXPECT_EQ(hits(inf, negative), 1) << negative;
+    EXPECT_EQ(hits(negative, inf), 0) << negative;
+    EXPECT_EQ(near(inf, negative), 1) << negative;
+    EXPECT_EQ(near(negative, inf), 0) << negative;
+    EXPECT_EQ(pairs(negative), 1) << negative;
+  }
+  for (const double none : {0.0, -0.0, nan}) {
+    EXPECT_EQ(near(inf, none), 1) << none;
+    EXPECT_EQ(near(none, inf), 0) << none;
+    EXPECT_EQ(pairs(none), 1) << none;
+  }
+  for (const double zero : {0.0, -0.0}) EXPECT_EQ(hits(inf, zero), 3) << zero;  // a length of which the start is left
+  EXPECT_EQ(near(inf, 1e-300), 3);
+}
+
 TEST(Doubles, NearestToAPointWithinItsRounding) {
   Random random(7);
   for (const int exponent : {-40, 0, 20}) {

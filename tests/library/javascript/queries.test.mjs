@@ -74,6 +74,14 @@ test("rays without a length have no end", () => {
   assert.deepEqual(world.castRays(origin, direction, 5), { ids: Float64Array.of(0), enters: Float32Array.of(Infinity) });
 });
 
+test("rays of a negative length meet nothing, also where it is -0 as a float", () => {
+  const world = new boxstream.World();
+  world.create(Float32Array.of(-1, -1, -1, 1, 1, 1));
+  const meets = (length) => world.castRays(new Float32Array(3), Float32Array.of(1, 0, 0), length).ids[0] === 1;
+  for (const length of [-Infinity, -1, -1e-45, -1e-50, -5e-324]) assert.ok(!meets(length), `${length}`);
+  for (const length of [0, -0, 1e-50]) assert.ok(meets(length), `${length}`);
+});
+
 test("fewer boxes than asked for", () => {
   const world = new boxstream.World({ dtype: "float64" });
   world.create(Float64Array.of(0, 0, 0, 1, 1, 1, 5, 5, 5, 6, 6, 6, NaN, NaN, NaN, NaN, NaN, NaN));

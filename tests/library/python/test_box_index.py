@@ -83,6 +83,9 @@ def test_arguments_are_those_of_searches():
         boxstream.BoxIndex(boxes[:, :4])
     with pytest.raises(ValueError, match="copy=False"):
         boxstream.BoxIndex(boxes.tolist(), copy=False)
+    for integers in (np.int32, np.int64):
+        with pytest.raises(ValueError, match=f"float64, as the index has, .* got {integers.__name__}, and copy=False"):
+            boxstream.BoxIndex(boxes.astype(integers), copy=False)
     with pytest.raises(ValueError, match=r"boxes\[7\]"):
         boxes[7, 0] = np.nan
         boxstream.BoxIndex(boxes, invalid="raise")

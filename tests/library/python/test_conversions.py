@@ -217,6 +217,25 @@ def test_a_few_invalid_boxes_are_no_warning():
             boxstream.find_near_pairs([[0, 0, 0]] * 3 + [[np.nan, 0, 0]] * 2, 1)
 
 
+def test_a_warning_that_is_an_error_comes_before_any_change():
+    boxes = random_boxes(20, np.float32)
+    wrong = boxes[:, [3, 4, 5, 0, 1, 2]]
+    world = boxstream.World()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ids = world.create(boxes)
+        world.update()
+        with pytest.raises(boxstream.InvalidBoxesWarning, match="come first"):
+            world.create(wrong)
+        with pytest.raises(boxstream.InvalidBoxesWarning, match="come first"):
+            world.move(ids, wrong, invalid="warn")
+        with pytest.raises(boxstream.InvalidBoxesWarning, match="come first"):
+            boxstream.BoxIndex(wrong)
+        assert len(world) == 20 and np.array_equal(world.boxes(ids), boxes)
+        world.save()  # nothing has changed since the update
+        assert world.move(ids, wrong) == 20
+
+
 BOXES = random_boxes(300, np.float64)
 
 
@@ -268,6 +287,7 @@ def test_numpys_booleans():
     assert np.array_equal(boxstream.find_pairs(BOXES, closed=np.True_), boxstream.find_pairs(BOXES))
     with pytest.raises(TypeError, match="expected True or False"):
         boxstream.find_pairs(BOXES, closed=np.array([True]))
+    assert len(boxstream.find_neighbours(BOXES, both=np.False_)[1]) == len(boxstream.find_pairs(BOXES))
 
 
 def test_a_world_warns_of_layouts():

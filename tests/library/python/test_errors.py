@@ -73,6 +73,12 @@ def test_copies_can_be_forbidden(given, text):
     (lambda: boxstream.find_pairs(BOXES, BOXES, ids=[1, 2, 3, 4]), TypeError, "ids: are of one set of boxes"),
     (lambda: boxstream.find_pairs(BOXES, BOXES, ids_a=[1, 2, 3, 4]), TypeError, "ids_a, ids_b: expected both"),
     (lambda: boxstream.find_pairs(BOXES, closed=0), TypeError, "closed: expected True or False, got 0"),
+    (lambda: boxstream.find_neighbours(BOXES, both="no"), TypeError, "both: expected True or False, got 'no'"),
+    (lambda: boxstream.find_neighbours(BOXES, both=None), TypeError, "both: expected True or False, got None"),
+    (lambda: boxstream.World(sticky_filters="no"), TypeError, "sticky_filters: expected True or False, got 'no'"),
+    (lambda: boxstream.World(sticky_filters=None), TypeError, "sticky_filters: expected True or False, got None"),
+    (lambda: boxstream.find_pairs(BOXES, tolerance=10**400), ValueError,
+     "tolerance: expected a number that float64 has, got one that is too large"),
     (lambda: boxstream.find_pairs(BOXES, tolerance=-1), ValueError, "tolerance: expected a finite number that is not"),
     (lambda: boxstream.find_pairs(BOXES, dimensions=4), ValueError, "dimensions: expected 1, 2 or 3, got 4"),
     (lambda: boxstream.find_pairs(BOXES, dtype="int16"), TypeError, "dtype: expected int64, int32 or uint32, got int16"),
@@ -149,6 +155,16 @@ def test_copies_can_be_forbidden(given, text):
 def test_arguments(call, error, text):
     with pytest.raises(error, match="^" + text):
         call()
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError, ZeroDivisionError])
+def test_what_a_number_of_the_callers_raises_passes_through(error):
+    class Number:
+        def __float__(self):
+            raise error
+
+    with pytest.raises(error):
+        boxstream.find_pairs(BOXES, tolerance=Number())
 
 
 def test_invalid_boxes_can_be_an_error():

@@ -120,7 +120,8 @@ def test_a_handler_that_forks(apart):
         try:
             pairs = boxstream.Detector(method="hybrid").find_pairs(apart)  # which takes longer
         except RuntimeError as error:
-            os._exit(7 if "forked" in str(error) and children == [0] else 8)
+            goes_on = len(boxstream.find_pairs(apart[:10])) == 0
+            os._exit(7 if "forked" in str(error) and children == [0] and goes_on else 8)
         if children == [0]:
             os._exit(9)
     finally:
@@ -129,3 +130,27 @@ def test_a_handler_that_forks(apart):
     assert len(pairs) == 0
     if children:  # the alarm came in time
         assert os.waitstatus_to_exitcode(os.waitpid(children[0], 0)[1]) == 7
+
+
+def test_a_child_after_a_search_that_was_left(apart):
+    """It has no thread of the search, and lets go of what that used."""
+    detector = boxstream.Detector()
+    assert interrupted(lambda: detector.find_neighbours(apart)) is not None
+    time.sleep(1.5)  # until it has ended; no later call has let go of it
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)  # a child is not to hang
+        try:
+            os._exit(7 if len(detector.find_pairs(apart[:10])) == 0 else 8)
+        except RuntimeError as error:  # a slow machine: what was in use at the fork stays in use
+            os._exit(7 if "in use" in str(error) else 9)
+        finally:
+            os._exit(10)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+    for _ in range(1000):
+        try:
+            assert len(detector.find_pairs(apart[:10])) == 0
+            return
+        except RuntimeError:
+            time.sleep(0.02)
+    raise AssertionError("it stays in use")

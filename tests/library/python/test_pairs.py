@@ -122,6 +122,18 @@ def test_a_detector_finds_the_same_and_tells_what_it_did():
     assert np.array_equal(pairs, detector.find_pairs(boxes))
 
 
+def test_scratch_memory_is_not_read_during_a_search():
+    detector, calls = boxstream.Detector(), []
+
+    def callback(pairs):
+        calls.append(pairs)
+        with pytest.raises(RuntimeError, match="this Detector is in use"):
+            detector.scratch_bytes
+
+    detector.stream_pairs(np.zeros((3, 6)), callback)
+    assert len(calls) == 1 and detector.scratch_bytes >= 0
+
+
 @pytest.mark.parametrize("cutoff", [0, 12])
 @pytest.mark.parametrize("dtype", DTYPES)
 def test_the_hybrid_method_finds_the_same(dtype, cutoff):

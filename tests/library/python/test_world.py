@@ -212,6 +212,20 @@ def test_a_ray_without_length_has_no_end():
     assert world.cast_rays(origin, -direction)[0].tolist() == [0]
 
 
+@pytest.mark.parametrize("length", [-np.inf, -1, -1e-45, -1e-50, -5e-324])
+def test_a_ray_of_negative_length_meets_nothing(length):
+    """As a float it may be -0."""
+    box = np.array([[-1, -1, -1, 1, 1, 1]], np.float32)
+    world, index = boxstream.World(), boxstream.BoxIndex(box)
+    ids = world.create(box)
+    origin, direction = np.zeros((1, 3), np.float32), np.array([[1, 0, 0]], np.float32)
+    assert world.cast_rays(origin, direction, length)[0].tolist() == [0]
+    assert index.cast_rays(origin, direction, length)[0].tolist() == [-1]
+    for zero in (0, -0.0):
+        assert world.cast_rays(origin, direction, zero)[0].tolist() == ids.tolist()
+        assert index.cast_rays(origin, direction, zero)[0].tolist() == [0]
+
+
 def test_nearest(filled):
     world, boxes, ids = filled
     points = (2 * np.random.default_rng(6).random((40, 3)) - 0.5).astype(world.dtype)

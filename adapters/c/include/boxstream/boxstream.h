@@ -181,7 +181,8 @@ typedef bool (*boxstream_visitor)(void* user, boxstream_id id);
 /* `enter` is where the ray comes in, in lengths of its direction. Returns the new length of the ray: `length` to see
    all hits, `enter` for the nearest, a negative number to stop. */
 typedef double (*boxstream_ray_visitor)(void* user, boxstream_id id, double enter, double length);
-/* `distance` is between boxes, rounded down. Returns the new limit: boxes that are farther are left out. */
+/* `distance` is between boxes, rounded down. Returns the new limit: boxes that are farther are left out. Zero, a
+   negative number or a NaN stops. */
 typedef double (*boxstream_near_visitor)(void* user, boxstream_id id, double distance);
 typedef double (*boxstream_near_pair_visitor)(void* user, boxstream_id_pair pair, double distance);
 

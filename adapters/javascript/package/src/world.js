@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { floatTypes, methodOf, optionalArray, requireAsMany, requireFloats, requireIds, requireInteger, requireOneOf, requireOptions } from "./arguments.js";
+import { floatTypes, methodOf, optionalArray, requireAsMany, requireBoolean, requireFloats, requireIds, requireInteger, requireOneOf, requireOptions } from "./arguments.js";
 import { filtersOf } from "./filters.js";
 import { answer, lend, number, part } from "./module.js";
 import { raysOf } from "./rays.js";
@@ -17,6 +17,7 @@ export class World extends Resource {
     requireOptions(options, ["dtype", "stickyFilters", "method", "cutoff"]);
     const { dtype = "float32", stickyFilters = false } = options;
     requireOneOf(dtype, "dtype", dtypes);
+    requireBoolean(stickyFilters, "stickyFilters");
     super("createWorld", "destroyWorld", dtypes.indexOf(dtype), stickyFilters, ...methodOf(options));
     this.#dtype = dtype;
   }
@@ -39,7 +40,9 @@ export class World extends Resource {
     return lend([boxes, filters, numbers], (at, ...more) => this.#ask("create", [at, count, ...more], () => ids(0)));
   }
 
-  move(moved, boxes, { invalid } = {}) {
+  move(moved, boxes, options = {}) {
+    requireOptions(options, ["invalid"]);
+    const { invalid } = options;
     requireIds(moved);
     requireAsMany(this.#countOf(boxes, "boxes", 6, invalid), "boxes", moved.length, "ids");
     return lend([moved, boxes], (at, to) => this.#ask("move", [at, moved.length, to], () => number(0)));
@@ -49,7 +52,9 @@ export class World extends Resource {
     return this.#askOf(destroyed, "destroy", () => number(0));
   }
 
-  setFilters(changed, { groups, masks } = {}) {
+  setFilters(changed, options = {}) {
+    requireOptions(options, ["groups", "masks"]);
+    const { groups, masks } = options;
     const filters = filtersOf(groups, masks, requireIds(changed).length);
     return lend([changed, filters], (at, to) => this.#ask("setFilters", [at, changed.length, to], () => number(0)));
   }
