@@ -138,8 +138,10 @@ void Broadphase::Impl::reset() {
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
-  std::vector<ProxyPair>().swap(ended);
+  for (auto* pairs : {&begun, &ended}) std::vector<ProxyPair>().swap(*pairs);
   std::vector<Box>().swap(sampled);
+  spare_lists.clear();
+  default_rule = own != nullptr;
   stats = {};
   created = 0;
   held_batches = few_failures = few_wait = still_batches = 0;
@@ -164,7 +166,7 @@ void Broadphase::Impl::shrink_to_fit() {
   spare_lists.clear();
   std::vector<Proxy*>().swap(destroyed);
   std::vector<btBroadphasePair>().swap(early);
-  std::vector<ProxyPair>().swap(ended);
+  for (auto* pairs : {&begun, &ended}) std::vector<ProxyPair>().swap(*pairs);
 }
 
 void Broadphase::Impl::flush_all_pending() {

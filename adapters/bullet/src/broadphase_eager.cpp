@@ -60,7 +60,8 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatc
 
 /// By candidates of rooms, if they are all that it may touch. False if something else has to do it.
 bool Broadphase::Impl::begin_among_candidates(Proxy& proxy) {
-  if (!own || has_new_filters || !own->user_changes().empty() || !rooms.come_near(live)) return false;
+  if (!own || has_new_filters || !own->user_changes().empty() || !or_fatal([&] { return rooms.come_near(live); }))
+    return false;
   or_fatal([&] {
     rooms.for_each_more(live, proxy, [&](Proxy& other) { early.emplace_back(proxy, other); });
     const bool are_accepted = begin_found(proxy);

@@ -165,6 +165,7 @@ struct Broadphase::Impl {
   void update_filter(Proxy& proxy, Filter filter);
   void release_user_changes(btDispatcher* dispatcher, bool thoroughly);
   void find_events(btDispatcher* dispatcher);
+  void ask_about_begun();
   void look_again_at(Span<const ProxyPair> told);
   void note_ended();
   void end_in_borrowed(btDispatcher* dispatcher);
@@ -202,7 +203,7 @@ struct Broadphase::Impl {
   std::vector<Proxy*> destroyed;  ///< destroyed while the World was busy
 
   std::vector<btBroadphasePair> early;  ///< scratch of begin_eagerly
-  std::vector<ProxyPair> ended;         ///< scratch of find_ended
+  std::vector<ProxyPair> begun, ended;  ///< scratch of find_events
 
   /// All that changed since the last batch are boxes of proxies whose pairs began within their moves.
   bool all_have_begun = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "borrowed_cache.hpp"
 #include "broadphase_impl.hpp"
@@ -127,11 +128,10 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   const auto accept = [&](ProxyId a, ProxyId b) { return accepts(a, b); };
   bool are_told = false;
   if (rooms.are_open()) {
-    if (!rooms.begun().empty() && own->getOverlapFilterCallback() != nullptr) flush_alone();  // it may query
+    ask_about_begun();
     own->prepare(world);
-    const InWorld busy(*this);
-    stats = world.update_told(rooms.begun(), rooms.ended(), accept);
-    look_again_at(rooms.begun());
+    stats = world.update_told(begun, rooms.ended(), [](ProxyId, ProxyId) { return true; });
+    look_again_at(begun);
     look_again_at(rooms.ended());
   } else if (can_only_end()) {
     find_ended();
@@ -142,6 +142,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     stats.moved = std::min(answered, live.size());
     are_told = true;
   } else {
+    all_have_begun = false;
     flush_alone();
     release_user_changes(dispatcher, true);
     update_rule();
@@ -167,10 +168,28 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   guard.impl = nullptr;
 }
 
+/// Of the pairs that begin by rooms, those that filters accept, to `begun`. They are asked in the order of the World,
+/// and not within it, as they may query.
+void Broadphase::Impl::ask_about_begun() {
+  begun.assign(rooms.begun().begin(), rooms.begun().end());
+  const auto created = [this](ProxyId id) { return proxy_of(id).created; };
+  for (ProxyPair& pair : begun)
+    if (created(pair.b) < created(pair.a)) std::swap(pair.a, pair.b);
+  std::sort(begun.begin(), begun.end(), [&](const ProxyPair& x, const ProxyPair& y) {
+    return std::pair(created(x.a), created(x.b)) < std::pair(created(y.a), created(y.b));
+  });
+  const Busy busy(*this);
+  begun.erase(
+      std::remove_if(begun.begin(), begun.end(), [&](const ProxyPair& pair) { return !accepts(pair.a, pair.b); }),
+      begun.end());
+}
+
 /// The World has been told of these pairs, by boxes that it does not have yet. Should one go back to the box that the
 /// World has, its search has to look at the pair all the same.
 void Broadphase::Impl::look_again_at(Span<const ProxyPair> told) {
-  for (const ProxyPair& pair : told) world.refilter(pair.a);
+  for (const ProxyPair& pair : told)
+    for (const ProxyId id : {pair.a, pair.b})
+      if (const Proxy& proxy = proxy_of(id); rooms.differs(proxy) || pending.contains(proxy)) world.refilter(id);
 }
 
 void Broadphase::Impl::note_ended() {

@@ -102,6 +102,7 @@ class ProxyRooms {
       const Candidate candidate = candidates_[row.first + i];
       if (candidate.is_held) continue;
       Proxy& other = *live[candidate.other];
+      if (!candidate.is_watched && !proxy.has_left_room && !other.has_left_room) continue;  // both in their rooms
       if (touch(proxy, other, proxy.margin != 0 || other.margin != 0)) visit(other);
     }
   }

@@ -191,7 +191,7 @@ void Surroundings::find_neighbours(std::uint32_t at) {
 
 /// At one place, refused pairs would take memory. Around one proxy, each link is looked for among the others.
 void Surroundings::give_up_crowd() noexcept {
-  constexpr std::size_t most_in_mean = 256, most_of_one = 4096;
+  constexpr std::size_t most_in_mean = 256, most_of_one = 16384;
   if (!are_kept() || (links_ <= most_in_mean * rows_.size() && longest_ <= most_of_one)) return;
   failures_ = most_failures;
   forget();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Callbacks that throw at each of their calls: the next batch is right.
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
 #include <gtest/gtest.h>
 #include <boxstream/bullet.hpp>
 
@@ -191,6 +192,42 @@ TEST(BulletHardBoxes, GhostCallbackThrowsInTwoBatches) {
     ASSERT_EQ(ghost.standing(), sorted(watched.rig.pairs())) << "event " << at;
     watched.rig.cache().setInternalGhostPairCallback(nullptr);
   }
+}
+
+/// Once a filter was set, all that the one before refused is asked about, although the first batch throws and only a
+/// ghost moves after it.
+TEST(BulletHardBoxes, FilterThrowsWhereOnlyGhostsMove) {
+  Rig rig;
+  auto* const broadphase = new boxstream::bullet::Broadphase;
+  rig.broadphase.reset(broadphase);
+  btGhostPairCallback ghosts;
+  rig.cache().setInternalGhostPairCallback(&ghosts);
+  btPairCachingGhostObject ghost;
+  btBroadphaseProxy *const a = rig.create(cube(0, 0, 0)), *const b = rig.create(cube(btScalar(0.5), 0, 0));
+  for (int i = 0; i < 18; ++i) rig.create(cube(btScalar(10 * i + 10), 0, 0));
+  btBroadphaseProxy* const moving = rig.create_for(&ghost, cube(0, 100, 0));
+  FunctionFilter refuse([&](auto* x, auto* y) { return !((x == a && y == b) || (x == b && y == a)); });
+  rig.cache().setOverlapFilterCallback(&refuse);
+  for (int i = 0; i < 60; ++i) {
+    rig.move(moving, cube(0, btScalar(100 + i), 0));
+    rig.calculate();
+  }
+  EXPECT_FALSE(rig.holds(a, b));
+  Fuse fuse{1};
+  FunctionFilter accept([&](auto, auto) {
+    fuse.burn();
+    return true;
+  });
+  rig.cache().setOverlapFilterCallback(&accept);
+  rig.move(moving, cube(0, 200, 0));
+  EXPECT_THROW(rig.calculate(), Thrown);
+  rig.move(moving, cube(0, 201, 0));
+  rig.calculate();
+  EXPECT_TRUE(rig.holds(a, b));
+  validate(*rig.broadphase);
+  rig.destroy(moving);
+  rig.cache().setOverlapFilterCallback(nullptr);
+  rig.cache().setInternalGhostPairCallback(nullptr);
 }
 
 TEST(BulletHardBoxes, QueriesThrowAtEachProxy) {
