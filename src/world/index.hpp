@@ -35,6 +35,7 @@ class LazyIndex {
     next_.reset();
     spent_ = lost_ = 0;
     hurried_ = 0;
+    is_hurried_ = false;
     asked_.store(0, std::memory_order_relaxed);
   }
 
@@ -85,27 +86,35 @@ class LazyIndex {
       next->begin_build(bvh_ && bvh_->lacks_room());
       next_ = std::move(next);
     }
-    const bool hurries = lost_ >= whole << hurried_;
-    if (hurries) work = std::max(work, whole / calls_to_finish(recent));
+    const std::uint64_t in_time = whole / calls_to_finish(recent);
+    if (lost_ >= whole << hurried_ && in_time <= most_hurry * work) {
+      work = std::max(work, in_time);
+      is_hurried_ = true;
+    }
     spent_ += std::min(work, whole);
     if (!next_->build_part(work, box_of(proxies))) return false;
     bvh_ = std::move(next_);
     bvh_->drop_scratch();
     asked_.store(0, std::memory_order_relaxed);
     lost_ = spent_ = 0;
-    hurried_ = hurries ? std::min(hurried_ + 1, most_hurried) : 0;
+    hurried_ = std::exchange(is_hurried_, false) ? std::min(hurried_ + 1, most_hurried) : 0;
     return true;
   }
 
  private:
   static constexpr std::uint32_t fresh_now = ~std::uint32_t{0};
   static constexpr unsigned most_hurried = 4;
+  static constexpr std::uint64_t most_hurry = 5;  // by which a part is larger: updates should not be seen
 
   /// No longer, once more than a quarter of its boxes have moved since it was begun.
   bool is_worth_finishing() const { return 4 * next_->marks() <= next_->slot_count(); }
   void give_up_next() const noexcept {
     next_.reset();
     lost_ += std::exchange(spent_, 0);
+    if (!std::exchange(is_hurried_, false)) return;
+    // It was in vain.
+    lost_ = 0;
+    hurried_ = std::min(hurried_ + 1, most_hurried);
   }
   /// Before that, if each has so many changes.
   std::uint64_t calls_to_finish(std::size_t recent) const {
@@ -133,6 +142,7 @@ class LazyIndex {
   mutable std::unique_ptr<Bvh<S>> next_;         // being built
   mutable std::uint64_t spent_ = 0, lost_ = 0;   // work on that one, and on those that were given up
   mutable unsigned hurried_ = 0;                 // trees made in a hurry, one after the other
+  mutable bool is_hurried_ = false;              // the one being built
 };
 
 }  // namespace boxstream::detail

@@ -381,7 +381,7 @@ struct ChangingProxies {
   std::size_t build(std::size_t changes) {
     for (std::size_t parts = 1;; ++parts) {
       change(changes);
-      if (index.build_part(table, 20, changes)) return parts;
+      if (index.build_part(table, 20 * std::max<std::size_t>(1, changes), changes)) return parts;
       if (parts == 100000) return 0;
     }
   }
@@ -396,7 +396,7 @@ TEST(Index, IsMadeInTimeWhereverOthersChangeMeanwhile) {
     for (const std::size_t changes : {1u, 3u, 10u, 200u}) {
       SCOPED_TRACE(testing::Message() << count << " boxes, " << changes << " changes");
       ChangingProxies proxies(count);
-      const std::size_t whole = detail::Bvh<float>::work_of_build(count) / 20;
+      const std::size_t whole = detail::Bvh<float>::work_of_build(count) / (20 * changes);
       const std::size_t first = proxies.build(changes);
       ASSERT_NE(first, 0u);
       // Half of it again for parts that come too late, as for those that do not.
