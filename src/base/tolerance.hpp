@@ -18,6 +18,11 @@ inline void check_tolerance(double tolerance) {
     throw std::invalid_argument("boxstream: a tolerance must be finite and not below 0");
 }
 
+/// Of one that has been checked. By its bits: a host may take subnormal numbers for zero.
+inline bool is_zero(double tolerance) {
+  return std::bit_cast<std::uint64_t>(tolerance) << 1 == 0;
+}
+
 /// The number next to x, below or above it.
 template <class S>
 S next_to(S x, int direction) {

@@ -77,7 +77,7 @@ class ReaderBoxes final : public NumberedBoxes<S> {
           ++stats_.invalid;
       }
     }
-    if (tolerance_ != 0) {
+    if (!is_zero(tolerance_)) {
       const DefaultFloatEnvironment environment;
       for (NumberedBox<S>& box : block_) raise(box.box, tolerance_, faces_);
     }

@@ -136,7 +136,7 @@ Comparison comparison_of(const GivenSets& sets) {
 template <class S>
 Span<const BasicAabb<S>> boxes_in(BoxSpan boxes, const PairRules& rules, Arena& arena) {
   const Coordinates same = sizeof(S) == 4 ? Coordinates::float32 : Coordinates::float64;
-  if (boxes.coordinates() == same && rules.tolerance == 0) return boxes.of<S>();
+  if (boxes.coordinates() == same && is_zero(rules.tolerance)) return boxes.of<S>();
   const DefaultFloatEnvironment environment;
   const Faces faces = rules.touching ? Faces::closed : Faces::open;
   switch (boxes.coordinates()) {

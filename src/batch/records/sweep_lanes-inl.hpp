@@ -9,8 +9,10 @@
 #define BOXSTREAM_SWEEP_LANES_INL_HPP_
 #endif
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <hwy/highway.h>
 
@@ -83,7 +85,10 @@ HWY_INLINE void store(VU a, VU b, std::size_t count, Pair* out) {
   // By way of 64-bit lanes, which takes fewer shuffles than to interleave.
   const hn::Half<DU> dh;
   const hn::RepartitionToWide<DU> d64;
-  const auto join = [](auto first, auto second) { return hn::Or(first, hn::ShiftLeft<32>(second)); };
+  const auto join = [](auto first, auto second) HWY_ATTR {
+    if constexpr (std::endian::native == std::endian::big) std::swap(first, second);
+    return hn::Or(first, hn::ShiftLeft<32>(second));
+  };
   auto* words = reinterpret_cast<std::uint64_t*>(out);
   hn::StoreU(join(hn::PromoteTo(d64, hn::LowerHalf(dh, a)), hn::PromoteTo(d64, hn::LowerHalf(dh, b))), d64, words);
   if (HWY_LIKELY(count <= lanes / 2)) return;

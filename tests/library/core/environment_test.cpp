@@ -64,6 +64,20 @@ TYPED_TEST(Environment, DenormalsFlushedToZero) {
 }
 #endif
 
+#if defined(BOXSTREAM_TESTS_CAN_FLUSH_DENORMALS)
+/// A tolerance is a number to the search, whatever the host takes it for.
+TEST(EnvironmentOfRules, SubnormalTolerancesAreSome) {
+  const std::vector<Aabb64> boxes{{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}};
+  PairRules rules;
+  rules.touching = false;
+  rules.tolerance = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(find_pairs(boxes, rules).size(), 1u);
+  std::vector<Pair> found;
+  with_denormals_flushed([&] { found = find_pairs(boxes, rules); });
+  EXPECT_EQ(found.size(), 1u);
+}
+#endif
+
 TYPED_TEST(Environment, AnyRoundingMode) {
   for (const int mode : rounding_modes) {
     SCOPED_TRACE("rounding mode " + std::to_string(mode));
