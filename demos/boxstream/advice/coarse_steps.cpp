@@ -60,6 +60,17 @@ using Found = std::optional<CoarseStep>;
 
 Found loop(const Given& given);
 
+/// What of it lies across a hinge's axis, of length one: the rest turns nothing.
+scenes::Vec3 across(const scenes::Vec3& v, const scenes::Vec3& axis) {
+  return geometry::minus(v, geometry::times(axis, geometry::dot(v, axis)));
+}
+
+/// From a hinge to the centre of a body, across the axis.
+scenes::Vec3 arm_of(const Body& body, const scenes::HingeJoint& hinge) {
+  const scenes::Vec3 whole = geometry::minus(body.position, hinge.pivot), arm = across(whole, hinge.axis);
+  return size_of(arm) > 1e-9 * size_of(whole) ? arm : scenes::Vec3{};  // or none, but for rounding
+}
+
 Found swing(const Given& given) {
   constexpr double fine = 75;  // steps in the time in which a pendulum turns by one radian
   std::vector<int> joints(given.bodies.size());
@@ -68,21 +79,19 @@ Found swing(const Given& given) {
     if (joint.b) ++joints[*joint.b];
   }
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
-    const scenes::Vec3* pivot = nullptr;
-    if (const auto* const ball = std::get_if<scenes::BallJoint>(&joint.value)) pivot = &ball->pivot;
-    if (const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value); hinge != nullptr && !hinge->motor)
-      pivot = &hinge->pivot;
+    const auto* const ball = std::get_if<scenes::BallJoint>(&joint.value);
+    const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     const bool held = !joint.b || !given.moves(*joint.b);
-    if (pivot == nullptr || !held || !given.moves_by_rows(joint.a)) continue;
+    if ((ball == nullptr && (hinge == nullptr || hinge->motor)) || !held || !given.moves_by_rows(joint.a)) continue;
     // What else hangs on it may hang from it, by a hinge, or lead round to the world.
-    const bool carries =
-        joints[joint.a] == 2 && std::holds_alternative<scenes::HingeJoint>(joint.value) && !loop(given);
+    const bool carries = joints[joint.a] == 2 && hinge != nullptr && !loop(given);
     if (joints[joint.a] != 1 && !carries) continue;
     const Body& body = given.bodies[joint.a];
-    const scenes::Vec3 arm = geometry::minus(body.position, *pivot);
+    const scenes::Vec3 arm = hinge != nullptr ? arm_of(body, *hinge) : geometry::minus(body.position, ball->pivot);
     const double length = size_of(arm), speed = size_of(body.velocity);
     if (length == 0) continue;
-    const scenes::Vec3& g = given.subject.scene.world.gravity;
+    const scenes::Vec3& pull = given.subject.scene.world.gravity;
+    const scenes::Vec3 g = hinge != nullptr ? across(pull, hinge->axis) : pull;
     const double level = given.gravity == 0 ? 1 : size_of(geometry::cross(arm, g)) / length / given.gravity;
     if (speed == 0 && (given.gravity == 0 || level < 0.1)) continue;
     const double rate = std::max(std::sqrt(given.gravity * level / length), speed / length);
@@ -152,7 +161,7 @@ Found loop(const Given& given) {
     if (hinge == nullptr) continue;
     for (const std::size_t i : {low, high}) {
       if (i == world) continue;
-      const double arm = size_of(geometry::minus(given.bodies[i].position, hinge->pivot));
+      const double arm = size_of(arm_of(given.bodies[i], *hinge));
       rate = std::max({rate, size_of(given.bodies[i].spin), arm > 0 ? std::sqrt(given.gravity / arm) : 0});
     }
   }
@@ -323,8 +332,8 @@ Found weak_motor(const Given& given) {
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves_by_rows(joint.a)) continue;
-    const scenes::Vec3 arm = geometry::minus(given.bodies[joint.a].position, hinge->pivot);
-    const double taken = size_of(geometry::cross(arm, given.subject.scene.world.gravity)) * given.masses[joint.a];
+    const scenes::Vec3 pull = across(given.subject.scene.world.gravity, hinge->axis);
+    const double taken = size_of(geometry::cross(arm_of(given.bodies[joint.a], *hinge), pull)) * given.masses[joint.a];
     if (taken == 0 || hinge->motor->max_force < taken || hinge->motor->max_force > 1.3 * taken) continue;
     return CoarseStep{fmt::format("a motor that holds a weight with {:.3g} of the torque that it takes: it gives",
                                   hinge->motor->max_force / taken),
@@ -339,7 +348,7 @@ Found fast_motor(const Given& given) {
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     if (hinge == nullptr || !hinge->motor || !hinge->motor->acts() || !given.moves_by_rows(joint.a)) continue;
-    const double arm = size_of(geometry::minus(given.bodies[joint.a].position, hinge->pivot));
+    const double arm = size_of(arm_of(given.bodies[joint.a], *hinge));
     const double turn = std::abs(hinge->motor->speed) * given.step;
     if (arm == 0 || turn <= most) continue;
     return CoarseStep{

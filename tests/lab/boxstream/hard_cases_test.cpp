@@ -349,6 +349,25 @@ double height_of_the_last(const Scene& scene) {
   return double{simulation.objects().back()->getWorldTransform().getOrigin().y()};
 }
 
+/// A body of half a metre on a hinge through the origin, which gravity, downwards, turns as far as axes and arms allow.
+std::vector<tool::CoarseStep> on_a_hinge(const std::string& axis, const std::string& place, const std::string& motor) {
+  return tool::coarse_steps(scenes::parse_scene(
+      fmt::format(R"({{"format": 1, "time": {{"dt": 0.0166667, "steps": 60}}, "world": {{"gravity": [0, -9.81, 0]}},
+        "shapes": [{{"name": "leaf", "type": "box", "half_extents": [0.45, 0.5, 0.02]}}],
+        "bodies": [{{"name": "leaf", "shape": "leaf", "mass": 5, "position": {}}}],
+        "joints": [{{"type": "hinge", "a": "leaf", "pivot": [0, 0, 0], "axis": {}{}}}]}})",
+                  place, axis, motor),
+      "leaf"));
+}
+
+TEST(CoarseSteps, LookAtWhatTurnsAHinge) {
+  EXPECT_TRUE(on_a_hinge("[0, 1, 0]", "[0.45, 0, 0]", "").empty()) << "a door does not swing";
+  EXPECT_EQ(on_a_hinge("[0, 0, 1]", "[0.45, 0, 0]", "").size(), 1u) << "a flap does";
+  const std::string fast = R"(, "motor": {"speed": 10, "max_force": 100})";
+  EXPECT_TRUE(on_a_hinge("[0, 1, 0]", "[0, 0.5, 0]", fast).empty()) << "a turntable turns about its centre";
+  EXPECT_EQ(on_a_hinge("[0, 1, 0]", "[0.45, 0.5, 0]", fast).size(), 1u);
+}
+
 TEST(CoarseSteps, NameAStackThatLeansSoThatItFalls) {
   EXPECT_TRUE(tool::coarse_steps(leaning(7, 0.4)).empty());
   EXPECT_TRUE(tool::coarse_steps(leaning(3, 0.8)).empty());
