@@ -113,7 +113,8 @@ OutputFile::OutputFile(const std::string& name, Input input) : name_(name), inpu
   } else {
     // Renaming onto a symbolic link would replace the link, not the file that it names.
     std::error_code error;
-    place_ = fs::weakly_canonical(name_, error);
+    place_ = fs::absolute(name_, error);
+    if (!error) place_ = fs::weakly_canonical(place_, error);
     if (error) refuse(error.message());
   }
   const bool device = descriptor_ > STDERR_FILENO;
@@ -199,7 +200,7 @@ void write_file(const std::string& name, const std::string& text, Input input) {
 
 void remove_parts_on_signals() {
   owner = getpid();
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) {
     struct sigaction action {
     }, former{};
     action.sa_handler = remove_parts_and_end;

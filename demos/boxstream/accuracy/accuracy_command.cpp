@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "accuracy/usual_knobs.hpp"
+#include "base/read_file.hpp"
 #include "base/words.hpp"
 #include "boxstream/accuracy/accuracy_writers.hpp"
 #include "boxstream/accuracy/closed_form.hpp"
@@ -112,9 +113,13 @@ void take_truth(const AccuracyOptions& options, accuracy::Request& request) {
                    "; or a number, POINTER=NUMBER, FILE.csv");
   std::ifstream file(options.truth);
   if (!file) throw BadInput("--truth: cannot read " + options.truth);
+  files::note_read(options.truth);
   request.truth.points = accuracy::read_truth(file, options.truth);
   request.measures.insert(request.measures.begin(), accuracy::parse_measure("truth"));
 }
+
+/// As many as `--steps` takes.
+constexpr std::uint64_t most_steps = 10'000'000;
 
 accuracy::Request request_of(const AccuracyOptions& options) {
   accuracy::Request request;
@@ -146,8 +151,12 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   if (options.advise || (options.knobs.empty() && !options.bound.empty())) request.seek.emplace();
   if (request.seek && !options.bound.empty()) request.seek->bound = accuracy::parse_bound(options.bound);
   if (options.at) {
-    request.steps = static_cast<std::uint64_t>(std::llround(*options.at / scene.time.dt));
-    if (request.steps == 0) throw BadInput(fmt::format("--at {}: before the end of the first step", *options.at));
+    const double steps = *options.at / scene.time.dt;
+    if (!(steps >= 0.5)) throw BadInput(fmt::format("--at {}: before the end of the first step", *options.at));
+    if (!(steps <= static_cast<double>(most_steps)))
+      throw BadInput(fmt::format("--at {}: more than {} steps of {:g} s", *options.at, most_steps, scene.time.dt));
+    if (options.steps) throw BadInput("--at and --steps: one of the two");
+    request.steps = static_cast<std::uint64_t>(std::llround(steps));
     for (accuracy::Measure& measure : request.measures)
       if (measure.name.find('.') == std::string::npos) measure.statistic = accuracy::Measure::Statistic::last;
   }

@@ -31,9 +31,19 @@ std::string take_blanks(std::istream& in) {
   return blanks;
 }
 
+/// The byte-order mark of UTF-8, with which no text has to begin.
+void take_mark(std::istream& in, const std::string& name) {
+  if (in.peek() != 0xEF) return;
+  char mark[3];
+  in.read(mark, sizeof(mark));
+  if (std::string_view(mark, static_cast<std::size_t>(in.gcount())) != "\xEF\xBB\xBF")
+    throw files::BadFile(name, "line 1: no row of numbers");
+}
+
 int run_pairs(const PairsOptions& options) {
   const std::string name = options.file == "-" ? "standard input" : options.file;
   files::InputFile file(options.file);
+  take_mark(file.stream(), name);
   const std::string blanks = take_blanks(file.stream());
   // No row of numbers begins with a brace.
   if (file.stream().peek() == '{')

@@ -4,7 +4,7 @@
 namespace boxstream::tool {
 
 /// While it lives, Ctrl-C ends nothing: `interrupted` is true from then on, so that what was measured can be shown. A
-/// second one ends the program.
+/// second one does what one did before.
 class InterruptCatcher {
  public:
   InterruptCatcher();

@@ -81,7 +81,9 @@ struct ReadGenerator {
     wall.columns = fields.require("columns").integer(1, max_count);
     wall.rows = fields.require("rows").integer(1, max_count / wall.columns);
     wall.origin = fields.require("origin").vec3(any_place);
-    wall.gap = fields.number("gap", 0, {0, max_length});
+    // So that something is left of a half brick, which is shorter than half of one by half of a gap.
+    const double length = 2 * std::get<BoxShape>(scene.shapes[wall.brick.shape].value).half_extents[0];
+    wall.gap = fields.number("gap", 0, {0, std::min(0.9 * length, max_length)});
   }
   void operator()(ChainGenerator& chain) const {
     chain.link = read_part(fields, "link", scene, names);

@@ -112,6 +112,7 @@ void WallGenerator::generate(Random&, Expanded& out) const {
   const double pitch = 2 * half[0] + gap;
   const double half_length = half[0] - gap / 2;  // two half bricks and a gap are as long as one brick
   const std::size_t half_brick = add_shape(out, BoxShape{{half_length / 2, half[1], half[2]}});
+  out.shapes[half_brick].margin = out.shapes[brick.shape].margin;
   for (int row = 0; row < rows; ++row) {
     const bool odd = row % 2 != 0;
     const double y = origin[1] + half[1] * (2 * row + 1);

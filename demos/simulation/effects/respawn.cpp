@@ -31,7 +31,8 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   for (std::size_t d = 0; d < 3; ++d) place[d] += cloud.random.range(-g.size[d] / 2, g.size[d] / 2);
   const Quat rotation = g.turned ? cloud.random.rotation() : Quat{0, 0, 0, 1};
   btRigidBody& body = *instance.bodies[index];
-  // As if it had just been made: forces and contacts of its former life are gone with the pairs.
+  // As if it had just been made: forces and contacts of its former life are gone with the pairs; nor is it frozen.
+  body.setCollisionFlags(body.getCollisionFlags() & ~btCollisionObject::CF_KINEMATIC_OBJECT);
   body.clearForces();
   instance.put(index, transform(place, rotation));
   body.setInterpolationWorldTransform(body.getWorldTransform());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -335,6 +336,48 @@ TEST(Mistakes, FuzzedCommandLines) {
     for (const auto& entry : std::filesystem::directory_iterator(here.file(".")))
       EXPECT_FALSE(entry.path().string().ends_with(".part") || entry.path().filename() == "-") << line;
   }
+}
+
+TEST(Mistakes, TimesOfAccuracyAreWithinTheRun) {
+  for (const char* none : {"-1", "0", "nan", "0.001"})
+    expect_refusal(run_tool({"accuracy", "hard/free_fall", "--at", none}), {"before the end of the first step"});
+  for (const char* many : {"1e30", "inf", "1e6"})
+    expect_refusal(run_tool({"accuracy", "hard/free_fall", "--at", many}), {"more than 10000000 steps"});
+  expect_refusal(run_tool({"accuracy", "hard/free_fall", "--at", "1", "--steps", "5"}), {"one of the two"});
+}
+
+TEST(Mistakes, OneNewFileUnderTwoNamesIsOne) {
+  const std::string name = "two_names_" + std::to_string(std::random_device()()) + ".csv";
+  expect_refusal(run_tool({"simulate", "wall", "--steps", "1", "--csv", name, "--states", "./" + name}),
+                 {"named for two outputs"});
+  EXPECT_FALSE(std::filesystem::exists(name));
+}
+
+TEST(Mistakes, ReferencesOfAccuracyAreNotOverwritten) {
+  const ScratchDirectory directory;
+  const std::string truth = directory.file("truth.csv");
+  std::ofstream(truth) << "t,x,y,z\n0,0,10,0\n1,0,5,0\n";
+  expect_refusal(run_tool({"accuracy", "hard/free_fall", "--truth", truth, "--csv", truth}), {"it is an input too"});
+}
+
+TEST(Mistakes, GapsOfWallsLeaveHalfBricks) {
+  const ScratchDirectory directory;
+  const auto wall = [&](double gap) {
+    json scene = {{"format", 1},
+                  {"shapes", {{{"name", "b"}, {"type", "box"}, {"half_extents", {0.2, 0.1, 0.1}}}}},
+                  {"generators",
+                   {{{"type", "wall"},
+                     {"columns", 3},
+                     {"rows", 2},
+                     {"origin", {0, 0, 0}},
+                     {"gap", gap},
+                     {"brick", {{"shape", "b"}, {"mass", 1}}}}}}};
+    std::ofstream(directory.file("wall.json")) << scene;
+    return run_tool({"simulate", directory.file("wall.json"), "--steps", "1"});
+  };
+  EXPECT_EQ(wall(0.1).exit_code, 0);
+  expect_refusal(wall(0.5), {"/generators/0/gap"});
+  expect_refusal(wall(0.4), {"/generators/0/gap"});
 }
 
 }  // namespace

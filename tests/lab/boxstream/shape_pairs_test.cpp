@@ -97,5 +97,13 @@ TEST(ShapePairs, MistakesAreNamedByPointer) {
   EXPECT_EQ(run_tool({"pairs", "-", "--tolerance", "0"}, {four_shapes, false}).exit_code, 2);
 }
 
+TEST(ShapePairs, MayBeginWithAByteOrderMark) {
+  const Outcome marked = run_tool({"pairs", "-"}, {std::string("\xEF\xBB\xBF") + four_shapes, false});
+  EXPECT_EQ(marked.exit_code, 0) << marked.err;
+  EXPECT_EQ(marked.out, run_tool({"pairs", "-"}, {four_shapes, false}).out);
+  const Outcome broken = run_tool({"pairs", "-"}, {std::string("\xEF\xBB{}"), false});
+  EXPECT_EQ(broken.exit_code, 2);
+}
+
 }  // namespace
 }  // namespace boxstream::tool_test

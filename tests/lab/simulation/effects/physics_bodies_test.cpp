@@ -334,5 +334,18 @@ TEST(RainAndLeaving, AreTheSameOnEveryBroadphase) {
   }
 }
 
+TEST(RainAndLeaving, WhatWasFrozenFallsAgain) {
+  Scene scene = exhibit("respawn");
+  scene.world.on_leave = scenes::OnLeave::freeze;
+  auto& respawn = std::get<scenes::RespawnGenerator>(scene.generators[0]);
+  respawn.velocity = {0, -6, 0};
+  respawn.every = 1;
+  scene.world.bounds = {{-300, 3, -300}, {300, 50, 300}};
+  Simulation simulation(scene, "boxstream");
+  const std::size_t bodies = simulation.objects().size();
+  for (int i = 0; i < 2000 && simulation.left() <= 2 * bodies; ++i) simulation.step();
+  EXPECT_GT(simulation.left(), 2 * bodies) << "each leaves once and is never seen again";
+}
+
 }  // namespace
 }  // namespace boxstream::effects_test
