@@ -410,7 +410,7 @@ TEST(Index, MadeInAHurryIsMadeLessOftenEachTime) {
   std::size_t before = proxies.build(30);
   for (int again = 0; again < 3; ++again) {
     const std::size_t parts = proxies.build(30);
-    EXPECT_GT(4 * parts, 7 * before) << again;
+    EXPECT_GT(2 * parts, 3 * before) << again;
     EXPECT_LT(4 * parts, 9 * before + 400) << again;
     before = parts;
   }
