@@ -18,7 +18,7 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   const BoxKeys<S> keys(box);
   if (!keys.are_valid()) return;
   const FewBoxes<S>& few = impl_->proxies_.few();
-  if (impl_->scans_few()) {
+  if (few.is_kept()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
     const std::size_t words = few.find_touching(keys, impl_->proxies_.ranks(), bits);
     for_each_index(bits, words, [&](std::uint32_t rank) { return visit(impl_->proxies_.id(rank)); });
