@@ -352,11 +352,13 @@ double height_of_the_last(const Scene& scene) {
 /// A body of half a metre on a hinge through the origin, which gravity, downwards, turns as far as axes and arms allow.
 std::vector<tool::CoarseStep> on_a_hinge(const std::string& axis, const std::string& place, const std::string& motor) {
   return tool::coarse_steps(scenes::parse_scene(
-      fmt::format(R"({{"format": 1, "time": {{"dt": 0.0166667, "steps": 60}}, "world": {{"gravity": [0, -9.81, 0]}},
+      fmt::format(
+          R"({{"format": 1, "meta": {{"name": "leaf", "about": "On a hinge."}}, "time": {{"dt": 0.0166667, "steps": 60}},
+        "world": {{"gravity": [0, -9.81, 0], "bounds": {{"min": [-9, -9, -9], "max": [9, 9, 9]}}}},
         "shapes": [{{"name": "leaf", "type": "box", "half_extents": [0.45, 0.5, 0.02]}}],
         "bodies": [{{"name": "leaf", "shape": "leaf", "mass": 5, "position": {}}}],
         "joints": [{{"type": "hinge", "a": "leaf", "pivot": [0, 0, 0], "axis": {}{}}}]}})",
-                  place, axis, motor),
+          place, axis, motor),
       "leaf"));
 }
 

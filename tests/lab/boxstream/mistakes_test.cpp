@@ -356,7 +356,7 @@ TEST(Mistakes, OneNewFileUnderTwoNamesIsOne) {
 TEST(Mistakes, ReferencesOfAccuracyAreNotOverwritten) {
   const ScratchDirectory directory;
   const std::string truth = directory.file("truth.csv");
-  std::ofstream(truth) << "t,x,y,z\n0,0,10,0\n1,0,5,0\n";
+  std::ofstream(truth) << "seconds,x,y,z\n0,0,10,0\n1,0,5,0\n";
   expect_refusal(run_tool({"accuracy", "hard/free_fall", "--truth", truth, "--csv", truth}), {"it is an input too"});
 }
 
@@ -364,6 +364,9 @@ TEST(Mistakes, GapsOfWallsLeaveHalfBricks) {
   const ScratchDirectory directory;
   const auto wall = [&](double gap) {
     json scene = {{"format", 1},
+                  {"meta", {{"name", "wall"}, {"about", "A wall."}}},
+                  {"time", {{"dt", 0.01}, {"steps", 1}}},
+                  {"world", {{"gravity", {0, -10, 0}}, {"bounds", {{"min", {-9, -9, -9}}, {"max", {9, 9, 9}}}}}},
                   {"shapes", {{{"name", "b"}, {"type", "box"}, {"half_extents", {0.2, 0.1, 0.1}}}}},
                   {"generators",
                    {{{"type", "wall"},
