@@ -338,8 +338,9 @@ TEST(RainAndLeaving, WhatWasFrozenFallsAgain) {
   Scene scene = exhibit("respawn");
   scene.world.on_leave = scenes::OnLeave::freeze;
   auto& respawn = std::get<scenes::RespawnGenerator>(scene.generators[0]);
+  respawn.size = {400, 1, 400};
   respawn.velocity = {0, -6, 0};
-  respawn.every = 1;
+  respawn.every = 20;
   scene.world.bounds = {{-300, 3, -300}, {300, 50, 300}};
   Simulation simulation(scene, "boxstream");
   const std::size_t bodies = simulation.objects().size();
