@@ -111,7 +111,7 @@ bool Broadphase::Impl::begin_found(Proxy& proxy) {
   const Busy busy(*this);
   // Should it go back to the box that the World has before this gets another one, its pairs have to end all the same.
   world.refilter(proxy.id);
-  std::size_t begun = 0;
+  std::size_t count = 0;
   bool are_accepted = true;
   try {
     for (const btBroadphasePair& pair : early) {
@@ -120,13 +120,13 @@ bool Broadphase::Impl::begin_found(Proxy& proxy) {
       if (!accepts(is_first ? proxy.id : other.id, is_first ? other.id : proxy.id))
         are_accepted = false;
       else if (world.begin_told(proxy.id, other.id))
-        early[begun++] = pair;
+        early[count++] = pair;
     }
   } catch (...) {
-    release_early(begun);
+    release_early(count);
     throw;
   }
-  early.resize(begun);
+  early.resize(count);
   return are_accepted;
 }
 

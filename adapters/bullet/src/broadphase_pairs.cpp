@@ -172,11 +172,11 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
 /// and not within it, as they may query.
 void Broadphase::Impl::ask_about_begun() {
   begun.assign(rooms.begun().begin(), rooms.begun().end());
-  const auto created = [this](ProxyId id) { return proxy_of(id).created; };
+  const auto order = [this](ProxyId id) { return proxy_of(id).created; };
   for (ProxyPair& pair : begun)
-    if (created(pair.b) < created(pair.a)) std::swap(pair.a, pair.b);
+    if (order(pair.b) < order(pair.a)) std::swap(pair.a, pair.b);
   std::sort(begun.begin(), begun.end(), [&](const ProxyPair& x, const ProxyPair& y) {
-    return std::pair(created(x.a), created(x.b)) < std::pair(created(y.a), created(y.b));
+    return std::pair(order(x.a), order(x.b)) < std::pair(order(y.a), order(y.b));
   });
   const Busy busy(*this);
   begun.erase(
