@@ -26,4 +26,10 @@ inline void for_each_index(const std::uint64_t* bits, std::size_t words, Visit&&
       if (!visit(static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(left)))) return;
 }
 
+/// Sets `count` bits, and no other of their words.
+inline void set_first(std::uint64_t* bits, std::size_t count) {
+  for (; count >= 64; count -= 64) *bits++ = ~std::uint64_t{0};
+  if (count > 0) *bits = ~(~std::uint64_t{0} << count);
+}
+
 }  // namespace boxstream::detail

@@ -41,6 +41,28 @@ struct RaySlabs {
     if (!is_ordinary()) look_closer();
   }
 
+  /// A box that meets each box that the ray meets by the tests below: all its points, and more than these round. May be
+  /// invalid, which says nothing.
+  BasicAabb<S> swept() const {
+    constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
+    const auto size = [](S x) { return x < 0 ? -x : x; };
+    BasicAabb<S> box;
+    for (int d = 0; d < 3; ++d) {
+      const S way = parallel[d] ? 0 : (length + std::numeric_limits<S>::min()) / inverse[d];
+      const S slack = rounding * (size(origin[d]) + size(way) + size(reach_lo[d]) + size(reach_hi[d]));
+      box.min[d] = origin[d] + (way < 0 ? way : 0) + reach_hi[d] - slack;
+      box.max[d] = origin[d] + (way < 0 ? 0 : way) + reach_lo[d] + slack;
+    }
+    return box;
+  }
+
+  /// True for a box that is swept, which seldom goes far.
+  bool has_extent() const {
+    bool is_point = true;
+    for (int d = 0; d < 3; ++d) is_point &= reach_lo[d] == reach_hi[d];
+    return !is_point;
+  }
+
   /// t at a bound on an axis that is long: what overflows on the way is a quarter of itself there.
   S far_crossing(S bound, S reach, unsigned d) const {
     constexpr S most = std::numeric_limits<S>::max();

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <optional>
 
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/bits.hpp"
+#include "base/keys.hpp"
 #include "base/thresholds.hpp"
 #include "nearest/nearest_boxes.hpp"
 #include "world/core.hpp"
@@ -48,28 +50,42 @@ void BasicWorld<S>::query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor 
   });
 }
 
+namespace {
+
+/// Few boxes compared one by one. Only what is computed needs the default environment: visitors are called in the
+/// caller's, where lengths are compared by keys.
+template <class S>
+void visit_hits_of_few(const ProxyTable<S>& proxies, const S (&enter)[FewBoxes<S>::most_lanes],
+                       const std::uint64_t* hits, std::size_t words, S length, RayVisitor<S> visit) {
+  for_each_index(hits, words, [&](std::uint32_t rank) {
+    if (order_key(enter[rank]) > order_key(length)) return true;  // clipped since
+    const S clipped = visit(proxies.id(rank), enter[rank], length);
+    const auto key = order_key(clipped);
+    if (key < order_key(length)) length = clipped;
+    return key >= 0 && key <= infinity_key<S>;  // false for NaN
+  });
+}
+
+}  // namespace
+
 template <class S>
 void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
   const InUse::Read read(impl_->in_use_);
-  DefaultFloatEnvironment environment;
+  std::optional<DefaultFloatEnvironment> environment(std::in_place);
   const RaySlabs<S> slabs(ray);
   if (slabs.hits_nothing) return;
   const FewBoxes<S>& few = impl_->proxies_.few();
   if (!slabs.is_long[0] && !slabs.is_long[1] && !slabs.is_long[2] && impl_->scans_few()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
-    S enter[FewBoxes<S>::most_lanes], length = slabs.length;
+    S enter[FewBoxes<S>::most_lanes];
     const std::size_t words = few.find_hits(slabs, impl_->proxies_.ranks(), enter, bits);
-    for_each_index(bits, words, [&](std::uint32_t rank) {
-      if (!(enter[rank] <= length)) return true;  // clipped since
-      const S clipped = environment.outside([&] { return visit(impl_->proxies_.id(rank), enter[rank], length); });
-      length = clipped < length ? clipped : length;
-      return clipped >= 0;
-    });
+    environment.reset();
+    visit_hits_of_few(impl_->proxies_, enter, bits, words, slabs.length, visit);
     return;
   }
   const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
   bvh.for_each_hit(slabs, [&](std::uint32_t slot, S enter, S length) {
-    return environment.outside([&] { return visit(impl_->id_of_slot(slot), enter, length); });
+    return environment->outside([&] { return visit(impl_->id_of_slot(slot), enter, length); });
   });
 }
 

@@ -110,9 +110,8 @@ void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoro
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy) return;
   // Before rooms, whose answer would be lost if a callback threw.
-  if (own && !own->is_settled()) own->flush_notifications(dispatcher);
-  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet()) return;
   if (own) own->flush_notifications(dispatcher);
+  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet()) return;
   or_fatal([&] { find_events(dispatcher); });
   own ? own->flush_notifications(dispatcher) : end_in_borrowed(dispatcher);
 }
@@ -125,19 +124,18 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
       if (impl != nullptr) impl->close_rooms();
     }
   } guard{this};
-  const auto accept = [&](ProxyId a, ProxyId b) { return accepts(a, b); };
+  const auto accept_all = [](ProxyId, ProxyId) { return true; };
   bool are_told = false;
   if (rooms.are_open()) {
     ask_about_begun();
     own->prepare(world);
-    stats = world.update_told(begun, rooms.ended(), [](ProxyId, ProxyId) { return true; });
+    stats = world.update_told(begun, rooms.ended(), accept_all);
     look_again_at(begun);
     look_again_at(rooms.ended());
   } else if (can_only_end()) {
     find_ended();
     own->prepare(world);
-    const InWorld busy(*this);
-    stats = world.update_told({}, ended, accept);
+    stats = world.update_told({}, ended, accept_all);
     look_again_at(ended);
     stats.moved = std::min(answered, live.size());
     are_told = true;
@@ -149,7 +147,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     update_filters();
     if (own) own->prepare(world);
     const InWorld busy(*this);
-    stats = world.update(accept);
+    stats = world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
   }
   if (surroundings.are_kept()) note_ended();
   if (own) {

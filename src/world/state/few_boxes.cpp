@@ -103,45 +103,49 @@ HWY_INLINE hn::VFromD<hn::Rebind<S, DK> > number_of(DK d, const hn::TFromD<DK>* 
   return hn::BitCast(hn::Rebind<S, DK>(), hn::AndNot(inert, bits));
 }
 
-/// As BoxBlock::hit.
+/// Bits of the lanes from `at` on that the ray misses. As BoxBlock::hit.
 template <class S>
-HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const RaySlabs<S>& ray, std::size_t size,
-                     S* enters, std::uint64_t* bits) {
+HWY_INLINE std::uint64_t missed(const FewColumns<decltype(order_key(S()))>& columns, const RaySlabs<S>& ray,
+                                std::size_t at, S* enters) {
   using Key = decltype(order_key(S()));
   const Narrow<Key> d;
   const hn::Rebind<S, Narrow<Key> > ds;
-  constexpr std::size_t step = hn::MaxLanes(d);
-  std::uint64_t word = 0;
-  for (std::size_t at = 0; at < size; at += step) {
-    const auto is_inert = hn::Gt(hn::Load(d, columns.lo[0] + at), hn::Load(d, columns.hi[0] + at));
-    const auto inert = hn::VecFromMask(d, is_inert);
-    auto outside = hn::RebindMask(ds, is_inert);
-    auto enter = hn::Zero(ds), leave = hn::Set(ds, ray.length);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto origin = hn::Set(ds, ray.origin[axis]);
-      const auto lo = number_of<S>(d, columns.lo[axis] + at, inert);
-      const auto hi = number_of<S>(d, columns.hi[axis] + at, inert);
-      const auto below = hn::Sub(hn::Sub(lo, hn::Set(ds, ray.reach_lo[axis])), origin);
-      const auto above = hn::Sub(hn::Sub(hi, hn::Set(ds, ray.reach_hi[axis])), origin);
-      if (ray.parallel[axis]) {
-        outside = hn::Or(outside, hn::Or(hn::Gt(below, hn::Zero(ds)), hn::Lt(above, hn::Zero(ds))));
-        continue;
-      }
-      const auto inverse = hn::Set(ds, ray.inverse[axis]);
-      const bool backwards = ray.inverse[axis] < 0;
-      const auto t_near = hn::Mul(backwards ? above : below, inverse);
-      const auto t_far = hn::Mul(backwards ? below : above, inverse);
-      // A comparison with NaN (infinity minus itself, or times zero) is false and leaves the interval as it is.
-      enter = hn::IfThenElse(hn::Gt(t_near, enter), t_near, enter);
-      leave = hn::IfThenElse(hn::Lt(t_far, leave), t_far, leave);
+  const auto is_inert = hn::Gt(hn::Load(d, columns.lo[0] + at), hn::Load(d, columns.hi[0] + at));
+  const auto inert = hn::VecFromMask(d, is_inert);
+  auto outside = hn::RebindMask(ds, is_inert);
+  auto enter = hn::Zero(ds), leave = hn::Set(ds, ray.length);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto origin = hn::Set(ds, ray.origin[axis]);
+    const auto lo = number_of<S>(d, columns.lo[axis] + at, inert);
+    const auto hi = number_of<S>(d, columns.hi[axis] + at, inert);
+    const auto below = hn::Sub(hn::Sub(lo, hn::Set(ds, ray.reach_lo[axis])), origin);
+    const auto above = hn::Sub(hn::Sub(hi, hn::Set(ds, ray.reach_hi[axis])), origin);
+    if (ray.parallel[axis]) {
+      outside = hn::Or(outside, hn::Or(hn::Gt(below, hn::Zero(ds)), hn::Lt(above, hn::Zero(ds))));
+      continue;
     }
-    hn::StoreU(enter, ds, enters + at);
-    const std::uint64_t missed = bits_of(ds, hn::Or(outside, hn::Gt(enter, leave)));
-    word |= (missed ^ ((1u << step) - 1)) << at % 64;
-    const std::size_t next = at + step;
-    if (next % 64 != 0 && next < size) continue;
-    *bits++ = word;
-    word = 0;
+    const auto inverse = hn::Set(ds, ray.inverse[axis]);
+    const bool backwards = ray.inverse[axis] < 0;
+    const auto t_near = hn::Mul(backwards ? above : below, inverse);
+    const auto t_far = hn::Mul(backwards ? below : above, inverse);
+    // A comparison with NaN (infinity minus itself, or times zero) is false and leaves the interval as it is.
+    enter = hn::IfThenElse(hn::Gt(t_near, enter), t_near, enter);
+    leave = hn::IfThenElse(hn::Lt(t_far, leave), t_far, leave);
+  }
+  hn::StoreU(enter, ds, enters + at);
+  return bits_of(ds, hn::Or(outside, hn::Gt(enter, leave)));
+}
+
+/// Those of the boxes in `bits` that the ray meets.
+template <class S>
+HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const RaySlabs<S>& ray, std::size_t size,
+                     S* enters, std::uint64_t* bits) {
+  constexpr std::size_t step = hn::MaxLanes(Narrow<decltype(order_key(S()))>());
+  for (std::size_t at = 0; at < size; ++bits) {
+    std::uint64_t word = *bits;
+    for (const std::size_t end = std::min(size, at + 64); at < end; at += step)
+      if ((word >> at % 64 & ((1u << step) - 1)) != 0) word &= ~(missed(columns, ray, at, enters) << at % 64);
+    *bits = word;
   }
 }
 
@@ -243,10 +247,18 @@ void FewBoxes<S>::find_rows(std::size_t size, std::uint64_t* rows) const {
     HWY_DYNAMIC_DISPATCH(Rows64)(columns_, size, rows);
 }
 
+/// To compare with the box of a ray takes a fifth of a test, and spares most of them if the ray is short.
+template <class S>
+void FewBoxes<S>::keep_swept(const RaySlabs<S>& ray, std::size_t size, std::uint64_t* bits) const {
+  if (const BoxKeys<S> swept(ray.swept()); swept.are_valid()) find_touching(swept, size, bits);
+}
+
 template <class S>
 std::size_t FewBoxes<S>::find_hits(const RaySlabs<S>& ray, std::size_t size, S (&enter)[most_lanes],
                                    std::uint64_t* bits) const {
   assert(size <= lanes_ && !ray.is_long[0] && !ray.is_long[1] && !ray.is_long[2]);
+  set_first(bits, size);
+  if (constexpr std::size_t few = 32; size > few && ray.has_extent()) keep_swept(ray, size, bits);
   if constexpr (sizeof(S) == 4)
     HWY_DYNAMIC_DISPATCH(Hits32)(columns_, ray, size, enter, bits);
   else
