@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cfenv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -74,6 +75,26 @@ BasicAabb<S> odd_box(Random& random) {
   return box;
 }
 
+/// What a ray meets, and where, as boxes one by one say.
+template <class S>
+void compare_hits(const detail::FewBoxes<S>& few, const std::vector<BasicAabb<S>>& boxes, const BasicRay<S>& ray) {
+  const std::size_t size = boxes.size(), words = detail::bit_words(size);
+  const detail::RaySlabs<S> slabs(ray);
+  std::vector<std::uint64_t> bits(words, ~std::uint64_t{0});
+  S enter[detail::FewBoxes<S>::most_lanes];
+  ASSERT_EQ(few.find_hits(slabs, size, enter, bits.data()), words);
+  for (std::size_t j = 0; j < 64 * words; ++j) {
+    detail::BoxBlock<S> block;
+    S entry[detail::BoxBlock<S>::width] = {};
+    if (j < size) block.set(0, boxes[j]);
+    const bool hit = j < size && (block.hit(slabs, slabs.length, entry) & 1) != 0;
+    ASSERT_EQ(bits[j / 64] >> j % 64 & 1, hit) << j;
+    if (hit) {
+      ASSERT_EQ(enter[j], entry[0]) << j;
+    }
+  }
+}
+
 /// The same as boxes one by one say, whatever has been set, cut, loaded and dropped before.
 template <class S>
 void compare_with_each(detail::FewBoxes<S>& few, const std::vector<BasicAabb<S>>& boxes, Random& random) {
@@ -106,20 +127,61 @@ void compare_with_each(detail::FewBoxes<S>& few, const std::vector<BasicAabb<S>>
     const BasicRay<S> along = BasicRay<S>::along(ray.origin, direction, static_cast<S>(random.integer(1, 4)));
     std::copy_n(along.inverse_direction, 3, ray.inverse_direction);
     ray.length = along.length;
-    const detail::RaySlabs<S> slabs(ray);
-    S enter[detail::FewBoxes<S>::most_lanes];
-    ASSERT_EQ(few.find_hits(slabs, size, enter, bits.data()), words);
-    for (std::size_t j = 0; j < 64 * words; ++j) {
-      detail::BoxBlock<S> block;
-      S entry[detail::BoxBlock<S>::width] = {};
-      if (j < size) block.set(0, boxes[j]);
-      const bool hit = j < size && (block.hit(slabs, slabs.length, entry) & 1) != 0;
-      ASSERT_EQ(bits[j / 64] >> j % 64 & 1, hit) << j;
-      if (hit) {
-        ASSERT_EQ(enter[j], entry[0]) << j;
-      }
-    }
+    compare_hits(few, boxes, ray);
   }
+}
+
+/// A box that the swept one reaches on all axes but for one, on which it ends a few roundings before or behind it.
+template <class S>
+BasicAabb<S> grazed_box(const BasicRay<S>& ray, Random& random) {
+  BasicAabb<S> box;
+  for (int d = 0; d < 3; ++d) {
+    const S way = ray.length / ray.inverse_direction[d];
+    box.min[d] = std::min(ray.origin[d], ray.origin[d] + way) + ray.extent_min[d];
+    box.max[d] = std::max(ray.origin[d], ray.origin[d] + way) + ray.extent_max[d];
+  }
+  const int side = random.integer(0, 2);
+  const S size = std::max({std::abs(box.min[side]), std::abs(box.max[side]), S(1)});
+  const S off = static_cast<S>(random.integer(-6, 6)) * std::numeric_limits<S>::epsilon() * size;
+  if (random.chance(0.5)) {
+    box.min[side] = box.max[side] + off;
+    box.max[side] = box.min[side] + 1;
+  } else {
+    box.max[side] = box.min[side] + off;
+    box.min[side] = box.max[side] - 1;
+  }
+  return box;
+}
+
+/// Near the origin and far from it.
+template <class S>
+void graze_a_swept_box() {
+  Random random(23);
+  const auto between = [&](double lo, double hi) { return static_cast<S>(random.between(lo, hi)); };
+  for (int turn = 0; turn < 300; ++turn) {
+    const S far = std::pow(S(10), static_cast<S>(random.integer(-1, 6)));
+    S origin[3], direction[3];
+    for (int d = 0; d < 3; ++d) {
+      origin[d] = between(-1, 1) * far;
+      direction[d] = random.chance(0.2) ? S(0) : between(-1, 1);
+    }
+    const S length = std::pow(S(10), static_cast<S>(random.integer(-2, 2)));
+    BasicRay<S> ray = BasicRay<S>::along(origin, direction, length);
+    for (int d = 0; d < 3; ++d) {
+      ray.extent_min[d] = between(-1, 0);
+      ray.extent_max[d] = between(0, 1);
+    }
+    std::vector<BasicAabb<S>> boxes;
+    while (boxes.size() < 100) boxes.push_back(grazed_box(ray, random));
+    detail::FewBoxes<S> few;
+    few.keep(boxes, boxes.size());
+    compare_hits(few, boxes, ray);
+  }
+}
+
+TEST(FewBoxes, ASweptBoxIsGrazedAsByOneBox) {
+  graze_a_swept_box<float>();
+  graze_a_swept_box<double>();
 }
 
 /// Of the flags only inexact and denormal operand stay while the caller's code runs; to take others back takes longer
