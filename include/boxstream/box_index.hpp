@@ -36,16 +36,16 @@ using NearBoxVisitor = FunctionRef<S(std::uint32_t box, S distance)>;
 /// the contracts there say so. Invalid boxes are found by no query.
 ///
 /// @par Order
-/// A function of the boxes alone.
+/// A function of the boxes, with the same C++ standard library.
 ///
 /// @par Memory
-/// 32 bytes a float box, 60 a double one, at most; twice that while it is built. Boxes are copied.
+/// 32 bytes a float box, 60 a double one, and 16 kB, at most; twice that while it is built. Boxes are copied.
 ///
 /// @par Threads
 /// Any number may ask at once.
 ///
 /// @par Bytes
-/// The same on all machines; an index that is loaded is the one that was saved. Whatever they are, `load` throws
+/// Read on all machines; an index that is loaded is the one that was saved. Whatever they are, `load` throws
 /// std::runtime_error, in one line, or returns an index that answers.
 ///
 /// @par Floating point

@@ -112,10 +112,12 @@ enum class Directions { both, one };
 /// @par Memory
 /// Scratch of O(n), kept and reused; once warm, a search of the same size and kind allocates nothing. One set takes 210
 /// bytes a box (doubles 290) up to 65 536 boxes, of which some half is touched, and at most 130 of more, 180 where most
-/// of them are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes.
+/// of them are long. Integers, a tolerance and sets of different coordinates take a copy of the boxes. Where threads
+/// search for a vector of pairs, what they find before its turn comes is kept too: 8 bytes a pair at most.
 ///
 /// @par Threads
-/// Use one Detector per thread: debug builds assert. Inputs are read during the call and not kept.
+/// Use one Detector per thread: debug builds assert. Inputs are read during the call and not kept. They must not lie in
+/// an output.
 ///
 /// @par Errors
 /// std::bad_alloc, std::length_error (too many boxes), std::invalid_argument (number of filters or ids, tolerance,

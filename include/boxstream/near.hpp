@@ -54,7 +54,7 @@ inline bool squares_fit(const Ball64& p, const Ball64& q, double distance) {
 /// True when the gap between two balls is at most `distance`: |a - b| <= a.radius + b.radius + distance, decided for
 /// the numbers as they are given, without rounding, in any rounding mode. Valid balls and finite distance >= 0 only.
 /// The distance is a double for balls of floats too: 0.1 is no float, and balls 0.1f apart are not within it.
-/// Where the host has denormal numbers flushed (FTZ, DAZ), those count as 0.
+/// Where the host has denormal numbers flushed (FTZ, DAZ), those of floats count as 0, and those of doubles may.
 ///
 /// Why it is exact: both sides are squared, which makes it the sign of a polynomial of degree two. For coordinates of
 /// 24 bits of similar size, as on a grid, doubles hold all its terms. In general they do not: the difference of two

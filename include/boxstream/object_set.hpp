@@ -45,7 +45,8 @@ struct KnownBounds {
 ///     set.for_each_pair([&](ObjectSet::Place a, ObjectSet::Place b) { ...; return true; });
 ///
 /// Objects are addresses that are never dereferenced, each in the set once. A *place* is the index of an object in a
-/// table in the order of adding; it is valid until an object is removed. The bit `is_static` is kept for the caller.
+/// table in the order of adding; it is valid until `remove`, `clear` or `shrink_to_fit`, even if that throws. The bit
+/// `is_static` is kept for the caller.
 ///
 /// Boxes touch if they share a point, sides included. A box with min > max on some axis, or a NaN, touches nothing; one
 /// with infinite bounds is as good as any. Objects pair if their filters accept each other.

@@ -266,7 +266,10 @@ class BOXSTREAM_API BasicWorld {
   ///
   /// @par Distances
   /// Euclidean, rounded down by some units in the last place, never above the exact ones. Always finite: those beyond
-  /// the largest finite number are that number. They depend only on the two boxes. No query allocates.
+  /// the largest finite number are that number. They depend only on the two boxes.
+  ///
+  /// @par Memory
+  /// Nothing is allocated but by the first query after a change, and by `query_nearest` of more than 32.
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
 
   /// The same for all pairs that group and mask accept, each once; `a` was created before `b`.

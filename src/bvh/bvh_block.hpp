@@ -16,8 +16,7 @@ namespace boxstream::detail {
 
 /// A ray as slabs see it: for each axis, t where the ray crosses a bound = (bound - reach - origin) * inverse.
 /// Every step is monotone in the bound, rounding included, so a box that contains another is never missed where the
-/// inner one is hit. But for an inverse of zero, with which an infinite bound is crossed at no number: such a ray has
-/// length 0, as finite bounds say.
+/// inner one is hit.
 template <class S>
 struct RaySlabs {
   S origin[3];
@@ -25,7 +24,7 @@ struct RaySlabs {
   S length;       // at most the largest finite number, so that a crossing at infinity is a miss
   S reach_lo[3];  // the lower bound is taken at lo - reach_lo
   S reach_hi[3];
-  bool parallel[3];  // infinite inverse: the axis only says inside or outside
+  bool parallel[3];  // infinite inverse, or one of zero: the axis only says inside or outside
   bool is_long[3];   // distances that overflow may be within the length
   bool hits_nothing;
 

@@ -18,12 +18,13 @@ struct Budget {
   static constexpr std::uint64_t least = 64 << 10;
   static constexpr std::uint64_t least_shared = 64 << 20;
 
-  /// `is_shared`: by threads, with which a search holds back pairs.
+  /// From `least_shared` on there may be threads, with which a search holds back pairs. The order of pairs must not
+  /// depend on whether there are.
   template <class S>
-  static Budget of(std::uint64_t memory, bool is_shared) {
+  static Budget of(std::uint64_t memory) {
     if (memory < least) throw std::invalid_argument("boxstream: searches out of core need 64 KiB of memory");
     const std::uint64_t quarter = memory / 4, block = std::clamp(quarter / most_regions, least_block, most_block);
-    return {boxes_in<S>(memory - memory / 8 - (is_shared ? held_back : 0)), static_cast<std::size_t>(block),
+    return {boxes_in<S>(memory - memory / 8 - (memory < least_shared ? 0 : held_back)), static_cast<std::size_t>(block),
             static_cast<std::size_t>(std::min(quarter / block, most_regions)),
             static_cast<std::size_t>(std::min(quarter / copies_of_sample / sizeof(KeyBox<S>), most_sampled)),
             static_cast<std::size_t>(std::min(memory / 16 / sizeof(WidePair), most_pairs))};

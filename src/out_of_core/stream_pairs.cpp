@@ -38,7 +38,7 @@ class OutOfCoreSearch {
   OutOfCoreSearch(WidePairSink sink, const OutOfCoreOptions& options, OutOfCoreStats& stats)
       : options_(options),
         executor_(options.memory < Budget::least_shared ? nullptr : options.executor),
-        budget_(Budget::of<S>(options.memory, executor_ != nullptr)),
+        budget_(Budget::of<S>(options.memory)),
         stats_(stats),
         sink_(sink),
         loaded_(budget_.boxes) {}

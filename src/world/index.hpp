@@ -87,8 +87,8 @@ class LazyIndex {
       next_ = std::move(next);
     }
     const std::uint64_t in_time = whole / calls_to_finish(recent);
-    if (lost_ >= whole << hurried_ && in_time <= most_hurry * work) {
-      work = std::max(work, in_time);
+    if (lost_ >= whole << hurried_ && work < in_time && in_time <= most_hurry * work) {
+      work = in_time;
       is_hurried_ = true;
     }
     spent_ += std::min(work, whole);

@@ -140,8 +140,8 @@ bool BasicWorld<S>::release(ProxyId a, ProxyId b) {
   const std::uint32_t rank_b = impl_->proxies_.rank(b);
   if (rank_a == ProxyTable<S>::none || rank_b == ProxyTable<S>::none || rank_a == rank_b) return false;
   const PairKey key = pair_key(rank_a, rank_b);
+  impl_->rooms_.forget();  // a refused one is asked about again
   if (!impl_->pairs_.release(key)) return false;
-  impl_->rooms_.forget();
   impl_->search_.fat_boxes().held_changed(key);
   return true;
 }

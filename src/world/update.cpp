@@ -188,6 +188,7 @@ WorldStats WorldParts<S>::update_told(Span<const ProxyPair> begin, Span<const Pr
     if (!is_of_few_) pairs_.fold();
     apply_changes(false);
   }
+  if (has_events() || holds_much_) give_back_unused(std::max(found_.size(), gone_.size()));
   WorldStats stats;
   stats.proxies = proxies_.live();
   stats.invalid = proxies_.invalid_count();

@@ -217,7 +217,7 @@ btBroadphaseProxy* Broadphase::createProxy(const btVector3& aabbMin, const btVec
                                            int collisionFilterGroup, int collisionFilterMask,
                                            btDispatcher* dispatcher) {
   Proxy* const proxy = impl_->create(aabbMin, aabbMax, userPtr, collisionFilterGroup, collisionFilterMask);
-  if (impl_->may_begin_eagerly(dispatcher)) impl_->begin_eagerly(*proxy, Impl::no_box, dispatcher);
+  if (impl_->may_begin_eagerly(dispatcher)) impl_->begin_eagerly(*proxy, no_box, dispatcher);
   return proxy;
 }
 

@@ -62,7 +62,6 @@ struct Broadphase::Impl {
   // broadphase_eager.cpp
   /// `settled`: see BasicWorld::begin_pairs_of.
   void begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher);
-  static constexpr Box no_box{{1, 1, 1}, {-1, -1, -1}};
   /// The present box of a proxy: all its pairs there have begun or been refused. Only if all boxes are eager; otherwise
   /// another proxy may have moved into it since.
   Box settled_box(const Proxy& proxy) const {
@@ -101,8 +100,8 @@ struct Broadphase::Impl {
   Surroundings surroundings;
   mutable bool has_new_filters = false;
 
-  /// True while callbacks may run that must not change proxies. If one does, the World gets the change afterwards, and
-  /// the memory of a destroyed proxy is freed afterwards.
+  /// True while callbacks may run that must not change proxies. If one does, the World gets the change from the next
+  /// query or batch, and the memory of a destroyed proxy is freed afterwards.
   bool world_is_busy = false;
   /// True while they run within a call of the World, which can take no changes then.
   bool is_in_world = false;
@@ -166,7 +165,7 @@ struct Broadphase::Impl {
   void release_user_changes(btDispatcher* dispatcher, bool thoroughly);
   void find_events(btDispatcher* dispatcher);
   void ask_about_begun();
-  void look_again_at(Span<const ProxyPair> told);
+  void tell(Span<const ProxyPair> begin, Span<const ProxyPair> end);
   void note_ended();
   void end_in_borrowed(btDispatcher* dispatcher);
 

@@ -124,19 +124,15 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
       if (impl != nullptr) impl->close_rooms();
     }
   } guard{this};
-  const auto accept_all = [](ProxyId, ProxyId) { return true; };
   bool are_told = false;
   if (rooms.are_open()) {
+    own->prepare(world);  // before filters are asked, for they might remove pairs
     ask_about_begun();
-    own->prepare(world);
-    stats = world.update_told(begun, rooms.ended(), accept_all);
-    look_again_at(begun);
-    look_again_at(rooms.ended());
+    tell(begun, rooms.ended());
   } else if (can_only_end()) {
     find_ended();
     own->prepare(world);
-    stats = world.update_told({}, ended, accept_all);
-    look_again_at(ended);
+    tell({}, ended);
     stats.moved = std::min(answered, live.size());
     are_told = true;
   } else {
@@ -182,12 +178,14 @@ void Broadphase::Impl::ask_about_begun() {
       begun.end());
 }
 
-/// The World has been told of these pairs, by boxes that it does not have yet. Should one go back to the box that the
-/// World has, its search has to look at the pair all the same.
-void Broadphase::Impl::look_again_at(Span<const ProxyPair> told) {
-  for (const ProxyPair& pair : told)
-    for (const ProxyId id : {pair.a, pair.b})
-      if (const Proxy& proxy = proxy_of(id); rooms.differs(proxy) || pending.contains(proxy)) world.refilter(id);
+/// Tells the World of pairs that begin and end by boxes that it does not have yet. Should a box go back to the one that
+/// the World has, its search has to look at the pair all the same.
+void Broadphase::Impl::tell(Span<const ProxyPair> begin, Span<const ProxyPair> end) {
+  stats = world.update_told(begin, end, [](ProxyId, ProxyId) { return true; });
+  for (const Span<const ProxyPair> told : {begin, end})
+    for (const ProxyPair& pair : told)
+      for (const ProxyId id : {pair.a, pair.b})
+        if (const Proxy& proxy = proxy_of(id); rooms.differs(proxy) || pending.contains(proxy)) world.refilter(id);
 }
 
 void Broadphase::Impl::note_ended() {

@@ -50,6 +50,8 @@ struct alignas(64) Proxy : btBroadphaseProxy {
   }
 };
 
+inline constexpr BasicAabb<btScalar> no_box{{1, 1, 1}, {-1, -1, -1}};
+
 inline BasicAabb<btScalar> box_of(const btVector3& lo, const btVector3& hi) {
   return {{lo.x(), lo.y(), lo.z()}, {hi.x(), hi.y(), hi.z()}};
 }

@@ -187,6 +187,7 @@ void Surroundings::find_neighbours(std::uint32_t at) {
     rows_[other].near.push_back(at);
     longest_ = std::max(longest_, rows_[other].near.size());
   }
+  longest_ = std::max(longest_, row.near.size());
 }
 
 /// At one place, refused pairs would take memory. Around one proxy, each link is looked for among the others.
@@ -227,7 +228,10 @@ void Surroundings::validate(const std::vector<Proxy*>& live, const BasicWorld<bt
   const boxstream::detail::DefaultFloatEnvironment environment;
   check(live.size() + free_rows_.size() == rows_.size(), "surroundings: not a row for each proxy");
   std::size_t all_links = 0;
-  for (const Row& row : rows_) all_links += row.near.size();
+  for (const Row& row : rows_) {
+    all_links += row.near.size();
+    check(row.near.size() <= longest_, "surroundings: the longest row is longer");
+  }
   check(all_links == links_, "surroundings: links are not counted");
   for (const Proxy* proxy : live) {
     const Row& row = rows_[proxy->row];

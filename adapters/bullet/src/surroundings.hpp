@@ -72,7 +72,6 @@ class Surroundings {
  private:
   using Index = BasicWorld<btScalar>;
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  static constexpr Box no_box{{1, 1, 1}, {-1, -1, -1}};
 
   /// A box that is compared with others by a few instructions.
   struct Bounds {
@@ -84,8 +83,8 @@ class Surroundings {
 
     /// Touches nothing.
     static Bounds nowhere() {
-      constexpr btScalar none = std::numeric_limits<btScalar>::quiet_NaN();
-      return Bounds(Box{{none, none, none}, {none, none, none}});
+      constexpr btScalar nan = std::numeric_limits<btScalar>::quiet_NaN();
+      return Bounds(Box{{nan, nan, nan}, {nan, nan, nan}});
     }
 
     Box box() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }

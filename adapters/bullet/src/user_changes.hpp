@@ -49,6 +49,7 @@ class UserChanges {
     };
     std::sort(pending_.begin(), pending_.end(), [&](const Ids& x, const Ids& y) { return numbers(x) < numbers(y); });
     pending_.erase(std::unique(pending_.begin(), pending_.end()), pending_.end());
+    pending_.reserve(2 * pending_.size());  // so that it is not done again soon
   }
 
   std::vector<Ids> pending_;

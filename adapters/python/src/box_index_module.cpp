@@ -65,7 +65,7 @@ points: array of the index's dtype, shape (n, dimensions). count: int.
 Returns an array of int64, shape (n, count): indices, -1 where there are no more.)")
       .def("save", &PyBoxIndex::save, R"(save()
 
-The index as bytes, the same on all machines: 28 a box of float32, 52 of float64. BoxIndex.load makes it of them in a
+The index as bytes, read on all machines: 28 a box of float32, 52 of float64. BoxIndex.load makes it of them in a
 fraction of the time of building, as do C++'s BoxIndex::load and pickle.)")
       .def_static(
           "load",

@@ -55,7 +55,8 @@ inline Sharing sharing_for(Executor* executor, std::uint64_t boxes) {
   if (executor == nullptr || boxes < least_parallel_boxes(0)) return {};
   const std::size_t least = least_parallel_boxes(executor->start_nanoseconds());
   if (boxes < least) return {};
-  const auto most = std::min<std::uint64_t>(executor->concurrency(), boxes / thresholds.boxes_of_thread);
+  const std::uint64_t threads = std::max<std::size_t>(1, executor->concurrency());
+  const auto most = std::min<std::uint64_t>(threads, boxes / thresholds.boxes_of_thread);
   return {static_cast<std::size_t>(most), least};
 }
 

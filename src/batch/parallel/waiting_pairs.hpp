@@ -43,7 +43,6 @@ class WaitingPairsRoom {
     const std::lock_guard lock(mutex_);
     if (left_ == 0) return nullptr;
     if (free_ == nullptr) {
-      pieces_.reserve(pieces_.size() + 1);
       pieces_.push_back(std::unique_ptr<Piece>(new Piece));
       put_back(*pieces_.back());
     }

@@ -280,6 +280,9 @@ void FatBoxes<S>::remap(Span<const std::uint32_t> new_rank) noexcept {
 template <class S>
 void FatBoxes<S>::clear() noexcept {
   drop();
+  motion_ = {};
+  planned_ = 1;
+  margins_ = {};
   fat_boxes_.clear();
   cores_.clear();
   fitted_in_.clear();

@@ -57,10 +57,8 @@ bool HeldPairs::release(PairKey key) {
     // Releasing and beginning again, over and over without an update, must not take ever more memory.
     std::sort(recheck_.begin(), recheck_.end());
     recheck_.erase(std::unique(recheck_.begin(), recheck_.end()), recheck_.end());
-    // Unless few are left, not again so soon.
-    if (recheck_.size() > recheck_.capacity() / 2) recheck_.reserve(2 * recheck_.capacity());
+    recheck_.reserve(std::max<std::size_t>(16, 2 * recheck_.size()));  // unless few are left, not again so soon
   }
-  reserve_one_more(recheck_);
   const bool was_held = take(key);
   recheck_.push_back(key);
   edition_ += was_held;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What callers should not do, and do: debug builds assert, release builds stay whole.
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <utility>
+
 #include <boxstream/bullet.hpp>
 
 #include "oracle.hpp"
@@ -37,6 +39,57 @@ TEST(BulletMisuse, FilterDestroysProxies) {
       rig.calculate();
       ASSERT_EQ(rig.pair_count(), calls >= at ? 36 : 45) << (borrowed ? "borrowed" : "own") << " cache, call " << at;
       ASSERT_NO_THROW(validate(*rig.broadphase));
+    }
+}
+
+/// The same, and a pair that it removes, while boxes tremble in their rooms and say themselves what begins: a pair in
+/// the middle of all, and the last one.
+TEST(BulletMisuse, FilterChangesASettledPile) {
+  for (const bool destroys : {true, false})
+    for (const std::size_t beside : {2, 28}) {
+      Rig rig;
+      Random random(17);
+      std::vector<btVector3> places;
+      for (int i = 0; i < 27; ++i) places.emplace_back(btScalar(0.9) * btVector3(i % 3, i / 3 % 3, i / 9));
+      places.insert(places.begin() + 3, btVector3(btScalar(2.85), 0, 0));  // 0.05 from the third one
+      places.emplace_back(20, 0, 0);
+      places.emplace_back(btScalar(21.05), 0, 0);
+      std::vector<btBroadphaseProxy*> proxies;
+      const auto place = [](const btVector3& at) { return cube(at.x(), at.y(), at.z()); };
+      for (const btVector3& at : places) proxies.push_back(rig.create(place(at)));
+      bool changes = false;
+      FunctionFilter filter([&](auto, auto) {
+        if (std::exchange(changes, false)) {
+          if (destroys)
+            rig.destroy(proxies[12]);
+          else
+            rig.cache().removeOverlappingPair(proxies[0], proxies[1], &rig.dispatcher);
+        }
+        return true;
+      });
+      rig.cache().setOverlapFilterCallback(&filter);
+      const auto tremble = [&] {
+        for (std::size_t i = 0; i < places.size(); ++i)
+          rig.move(proxies[i], place(places[i] + random.vector(btScalar(-0.001), btScalar(0.001))));
+        rig.calculate();
+      };
+      for (int frame = 0; frame < 40; ++frame) tremble();
+      ASSERT_EQ(static_cast<Broadphase&>(*rig.broadphase).stats().moved, 0u) << "no rooms";
+      changes = true;
+      places[beside + 1] -= btVector3(btScalar(0.07), 0, 0);
+      tremble();
+      ASSERT_FALSE(changes) << "no pair began";
+      ASSERT_TRUE(rig.holds(proxies[beside], proxies[beside + 1]));
+      for (int frame = 0; frame < 3; ++frame) {
+        rig.calculate();
+        ASSERT_NO_THROW(validate(*rig.broadphase));
+      }
+      if (destroys) proxies.erase(proxies.begin() + 12);
+      int touching = 0;
+      for (const btBroadphaseProxy* a : proxies)
+        for (const btBroadphaseProxy* b : proxies)
+          touching += a < b && boxes_overlap(a->m_aabbMin, a->m_aabbMax, b->m_aabbMin, b->m_aabbMax);
+      EXPECT_EQ(rig.pair_count(), touching);
     }
 }
 

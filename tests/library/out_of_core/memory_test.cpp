@@ -51,7 +51,7 @@ TYPED_TEST(OutOfCoreMemory, IsWhatWasGiven) {
       few{64 * KiB, 555 * KiB};
   for (const std::uint64_t memory : tests::sanitized ? few : all)
     for (const auto& set : tests::box_sets_to_repeat<TypeParam>()) {
-      const std::size_t fit = Budget::of<TypeParam>(memory, false).boxes;
+      const std::size_t fit = Budget::of<TypeParam>(memory).boxes;
       for (const std::size_t n : {fit, fit + 1, 5 * fit}) {
         if (n > 40000 && n != fit) continue;
         VectorReader<TypeParam> reader(set.make(std::min(n, set.largest), memory));

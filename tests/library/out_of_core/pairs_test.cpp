@@ -133,6 +133,19 @@ TYPED_TEST(OutOfCore, OrderIsAFunctionOfBoxesAndMemory) {
   EXPECT_EQ(find<TypeParam>(other, 4 * least_memory, &executor).pairs, order);
 }
 
+/// Where threads search, too, of which the pairs that they hold back take memory from the boxes.
+TYPED_TEST(OutOfCore, OrderIsTheSameWithThreads) {
+  const std::size_t between = sizeof(TypeParam) == 4 ? 130000 : 120000;  // fits without what is held back alone
+  const auto boxes = tests::box_set<TypeParam>("sparse").make(between, 7);
+  VectorReader<TypeParam> one(boxes), other(boxes);
+  tests::InlineExecutor executor(3);
+  constexpr std::uint64_t memory = 64 << 20;
+  const auto alone = find<TypeParam>(one, memory), shared = find<TypeParam>(other, memory, &executor);
+  EXPECT_EQ(shared.pairs, alone.pairs);
+  EXPECT_EQ(shared.stats.searches, alone.stats.searches);
+  EXPECT_EQ(shared.stats.bytes_written, alone.stats.bytes_written);
+}
+
 TYPED_TEST(OutOfCore, ReadsOnceAndWritesNothingWhereBoxesFit) {
   VectorReader<TypeParam> reader(tests::box_set<TypeParam>("dense").make(6000, 5));
   const OutOfCoreStats stats = find<TypeParam>(reader, 1 << 24).stats;

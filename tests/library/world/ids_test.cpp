@@ -117,6 +117,26 @@ TEST(Ids, ClearedWorldRepeatsItsHistory) {
   EXPECT_EQ(run(), first);
 }
 
+// It does not know how boxes moved before.
+TEST(Ids, ClearedWorldSearchesAsANewOne) {
+  World world;
+  const auto run = [&world] {
+    std::vector<std::uint64_t> log;
+    std::vector<ProxyId> ids;
+    for (int i = 0; i < 3000; ++i) ids.push_back(world.create(Aabb{{float(i), 0, 0}, {float(i) + 1.5f, 1, 1}}));
+    for (int frame = 0; frame < 12; ++frame) {
+      const float x = float(frame) / 512;
+      for (int i = 0; i < 3000; ++i) world.move(ids[std::size_t(i)], {{float(i) + x, 0, 0}, {float(i) + 1.5f, 1, 1}});
+      const WorldStats stats = world.update();
+      log.insert(log.end(), {stats.search.tests, stats.search.cells, stats.pairs});
+    }
+    return log;
+  };
+  const auto first = run();
+  world.clear();
+  EXPECT_EQ(run(), first);
+}
+
 TEST(Ids, BulkCallsRejectSpansOfDifferentLength) {
   World world;
   const std::vector<Aabb> boxes(3, unit);

@@ -179,6 +179,32 @@ TEST(Memory, OfPairsGoesBackOnceTheyAreGone) {
   }
 }
 
+/// The same where callers say which.
+TEST(Memory, OfPairsThatAreToldGoesBack) {
+  for (const bool searches_then : {false, true}) {
+    World world;
+    std::vector<ProxyId> ids;
+    for (int i = 0; i < 500; ++i) ids.push_back(world.create(cube(float(2 * i), 0)));
+    world.update();
+    const std::int64_t before = heap_watch::live_bytes();
+    const auto accept = [](ProxyId, ProxyId) { return true; };
+    {
+      std::vector<ProxyPair> all;
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) all.push_back({ids[j], ids[i]});
+      EXPECT_EQ(world.update_told(all, {}, accept).begun, all.size());
+      EXPECT_EQ(world.update_told({}, all, accept).ended, all.size());
+    }
+    const std::int64_t most = heap_watch::live_bytes() - before;
+    for (int frame = 0; frame < 10; ++frame) {
+      const ProxyPair one{ids[3], ids[std::size_t(4 + frame)]};
+      searches_then ? world.update() : world.update_told(Span<const ProxyPair>(&one, 1), {}, accept);
+    }
+    EXPECT_LT(5 * (heap_watch::live_bytes() - before), most);
+    world.validate();
+  }
+}
+
 /// A grid in which each box touches `reach` others to the right of it.
 template <class S>
 BasicAabb<S> box_of_row(int i, int reach, int frame) {

@@ -202,11 +202,13 @@ TYPED_TEST(Rooms, EndWhereAPairBeginsOrEnds) {
     }
 }
 
-/// A pair that is released begins at the next update, so that no room can promise that nothing will.
+/// A pair that is released, held or refused, begins at the next update, so that no room can promise that nothing will.
 TEST(Rooms, AreNotLentWhileAPairIsReleased) {
   World world;
   const auto at = [](float x) { return Aabb{{x, 0, 0}, {x + 1, 1, 1}}; };
   const ProxyId still = world.create(at(0)), mover = world.create(at(0.5f));
+  const ProxyId refused = world.create(at(7)), other = world.create(at(7.5f));
+  world.update([&](ProxyId a, ProxyId) { return a != refused; });
   Aabb outer, inner;
   const auto tremble_until_lent = [&] {
     for (int step = 0; step < 100; ++step) {
@@ -218,6 +220,10 @@ TEST(Rooms, AreNotLentWhileAPairIsReleased) {
   };
   ASSERT_TRUE(tremble_until_lent());
   ASSERT_TRUE(world.release(still, mover));
+  EXPECT_FALSE(world.room(mover, outer, inner));
+  EXPECT_EQ(world.update().begun, 1u);
+  ASSERT_TRUE(tremble_until_lent());
+  EXPECT_FALSE(world.release(refused, other));
   EXPECT_FALSE(world.room(mover, outer, inner));
   EXPECT_EQ(world.update().begun, 1u);
   EXPECT_TRUE(tremble_until_lent());
