@@ -17,7 +17,7 @@ there. Installs compilers and emulators as root, and unpacks libraries of that s
   i386     32-bit x86, as it is: core, worlds, objects, C
   windows  64-bit Windows under Wine: the short form alone
   wasm     WebAssembly in Node and Chromium, with Emscripten: orders of pairs, the npm package, the live page (docs/javascript.md)
-  --short  as continuous integration does: orders of pairs, near, C, files
+  --short  as ./dev test --whole does: orders of pairs, near, C, files
 docs/systems.md says what was last run, with what result.
 TEXT
 }
