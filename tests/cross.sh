@@ -22,7 +22,7 @@ docs/systems.md says what was last run, with what result.
 TEXT
 }
 
-# System; compiler and emulator; where its libraries come from; rooms of tests.
+# System; compiler and emulator; where its libraries come from; folders of tests.
 cross_systems='
 arm64 g++-aarch64-linux-gnu,qemu-user packages library/core,library/world,library/objects,library/c,lab/formats/travel,library/bullet,library/fcl,library/ccd
 riscv64 g++-riscv64-linux-gnu,qemu-user,dpkg-dev sources library/core,library/objects,library/c,lab/formats/travel
