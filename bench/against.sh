@@ -8,7 +8,7 @@ usage() {
 usage: bench/against.sh REVISION [NAME:N...]
 Builds the engine of a revision and that of the sources in the same way, times both interleaved, and prints the best times of
 a search in milliseconds and how many times as fast the sources are. Pairs have to be equal.
-In the environment: ROUNDS=5 (how often), PREFIX="taskset -c 1" (of what is timed). Needs git, a compiler and Highway.
+In the environment: ROUNDS=3 (how often), PREFIX="taskset -c 1" (of what is timed). Needs git, a compiler and Highway.
 TEXT
 }
 

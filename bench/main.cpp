@@ -61,7 +61,7 @@ const Suite suites[] = {
     {"sets", "Detector::find_pairs between two batches, with filters, and of doubles", run_sets_suite, sets_case_texts,
      "sets, with peers block-loop, two-trees, tree-of-few, cgal, embree, by-hand and sorted-sweep"},
     {"many", "Detector::find_pairs of many sets in one call, frame by frame", run_many_suite, many_case_texts,
-     "many, with peers calls, calls-kept (all pairs in one array, as ours), worlds and dbvt (one a set)"},
+     "many, with peers calls, calls-kept (all pairs in one array, as boxstream's), worlds and dbvt (one a set)"},
     {"scaling", "Detector::find_pairs over n, threads, all peers, and one radix sort of n keys", run_scaling_suite,
      nullptr, "", is_batch},
 #ifdef BOXSTREAM_BENCH_STEPS
@@ -80,7 +80,8 @@ const struct {
 #endif
     {"model", "predictions of a model of the engine's cost, and measurements", run_model},
 #ifdef BOXSTREAM_BENCH_NEAR
-    {"near", "near neighbours by a Delaunay triangulation, by the algorithm for thick objects and by ours", run_near},
+    {"near", "near neighbours by a Delaunay triangulation, by the algorithm for thick objects and by boxstream",
+     run_near},
 #endif
     {"large", "searches with less memory than the boxes take, beside searches in memory", run_large},
     {"table", "tables in Markdown from files written with --json: table RESULTS.json... [--into PAGE.md]", run_table},

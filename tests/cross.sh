@@ -17,12 +17,12 @@ there. Installs compilers and emulators as root, and unpacks libraries of that s
   i386     32-bit x86, as it is: core, worlds, objects, C
   windows  64-bit Windows under Wine: the short form alone
   wasm     WebAssembly in Node and Chromium, with Emscripten: orders of pairs, the npm package, the live page (docs/javascript.md)
-  --short  as continuous integration does: orders of pairs, near, C, files
+  --short  as ./dev test --whole does: orders of pairs, near, C, files
 docs/systems.md says what was last run, with what result.
 TEXT
 }
 
-# System; compiler and emulator; where its libraries come from; rooms of tests.
+# System; compiler and emulator; where its libraries come from; folders of tests.
 cross_systems='
 arm64 g++-aarch64-linux-gnu,qemu-user packages library/core,library/world,library/objects,library/c,lab/formats/travel,library/bullet,library/fcl,library/ccd
 riscv64 g++-riscv64-linux-gnu,qemu-user,dpkg-dev sources library/core,library/objects,library/c,lab/formats/travel

@@ -31,7 +31,7 @@ usage: ./dev mutants [--handful] [--search] [--list] [--jobs N] [NAME...]
 Builds a copy of core, adapters and their tests that has the faults of tests/mutants/faults.json in it, in
 build/mutants, and switches these on one by one: the tests that a fault names must fail with it, and pass without any.
   NAME       only these faults
-  --handful  a few, others for each commit: what continuous integration does
+  --handful  a few, others for each commit, as ./dev test --whole does
   --search   says for each fault which tests notice it: for adding one
   --list     prints the faults and does nothing
 TEXT

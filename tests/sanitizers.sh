@@ -62,7 +62,7 @@ sanitizer_valgrind() {
   for program in bullet/bullet_tests fcl/fcl_tests ccd/boxstream_ccd_tests; do
     say "valgrind: $program"
     RC_PARAMS=max_success=3 valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite \
-      "build/sanitizers/valgrind/tests/$program" --gtest_brief=1 || return 1
+      "build/sanitizers/valgrind/tests/library/$program" --gtest_brief=1 || return 1
   done
 }
 

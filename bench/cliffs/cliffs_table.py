@@ -34,7 +34,7 @@ def table(results):
 
 
 def sizes_table(results):
-    """The peer's time over ours at some sizes, or at those measured that are next to them."""
+    """The peer's time over that of boxstream at some sizes, or at those measured that are next to them."""
     shown = [n for n in (1, 2, 3, 5, 10, 30, 100, 300, 1000, 3000) if n <= results["sizes"]["most"]]
     rows = []
     for row in results["rows"]:

@@ -30,7 +30,7 @@ compile() { # object, source, directory of the engine's sources, more options
     -I"$root/demos" -I"$root/bench" "${@:4}" -c "$2" -o "$1"
 }
 
-# All of the library that a Detector needs: files of src without their suffix. Versions before the rooms had one folder.
+# All of the library that a Detector needs: files of src without their suffix. Old versions had one folder.
 engine_of() {  # directory of sources
   local file
   for file in "$1"/{base,batch,search}/*.cpp; do

@@ -149,7 +149,7 @@ Knob parse_knob(const std::string& text) {
     const auto found = named_keys().find(knob.name);
     if (found == named_keys().end())
       throw BadKnob(unknown_word("knob", knob.name, knob_names()) +
-                    " (or a pointer into the scene such as /bodies/0/friction)");
+                    " (or a pointer into the scene such as /materials/NAME/friction)");
     knob.pointer = found->second.pointer;
   }
   for (std::size_t begin = equals + 1; begin <= text.size();) {

@@ -31,8 +31,8 @@ struct Knob {
 /// What a value of this knob is called.
 std::string text_of(const Knob& knob, const nlohmann::json& value);
 
-/// "NAME=VALUE,VALUE...". NAME is a pointer ("/bodies/0/friction") or one of knob_names(). A value is a number, a
-/// fraction ("1/60"), true, false, or else text. Throws BadKnob.
+/// "NAME=VALUE,VALUE...". NAME is a pointer ("/materials/steel/friction") or one of knob_names(). A value is a number,
+/// a fraction ("1/60"), true, false, or else text. Throws BadKnob.
 Knob parse_knob(const std::string& text);
 
 /// Keys of the blocks time, world and solver that need no pointer: "substeps" is "/time/substeps".

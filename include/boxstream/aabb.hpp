@@ -70,7 +70,8 @@ constexpr BasicAabb<S> expanded(const BasicAabb<S>& box, S margin) {
 }
 
 /// The smallest box of floats that contains `box`: low ends are rounded down and high ends up, in any rounding mode, so
-/// boxes that overlap still do. Invalid boxes stay so, but for inverted ones that are so by less than floats tell.
+/// boxes that overlap still do. Invalid boxes stay invalid, except inverted ones whose inversion is too small for a
+/// float.
 inline Aabb rounded_outwards(const Aabb64& box) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   Aabb out{};

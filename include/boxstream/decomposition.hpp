@@ -23,7 +23,7 @@ BOXSTREAM_API bool is_sampled(std::uint64_t id, std::uint64_t boxes, std::size_t
 /// pairs of the set together: boxstream/mpi.hpp does that.
 ///
 /// @par Use
-/// Each gets the boxes that touch its part, finds their pairs, and keeps those for which `before` has no bit twice.
+/// Each process finds the pairs of the boxes that touch its part and keeps those with `(before(a) & before(b)) == 0`.
 /// Then each pair of the set is found once.
 ///
 /// @par Method

@@ -37,8 +37,8 @@ struct PairRules {
   /// None, or one for each box: boxes with equal ids (of nets, parts, bodies) do not pair. Of two sets, for both.
   Span<const std::uint32_t> ids = {}, ids_b = {};
   /// Whether boxes pair that share no more than a face, an edge or a corner. If not, a box pairs with another when
-  /// a.min < b.max and b.min < a.max on every axis: as open and as half-open boxes do. So a flat box pairs with those
-  /// inside of which it is, and not with one that is flat in the same place.
+  /// a.min < b.max and b.min < a.max on every axis: as open and as half-open boxes do. So a flat box pairs with boxes
+  /// that strictly contain its plane, but not with another flat box in the same plane.
   bool touching = true;
   /// Boxes pair, too, that are at most so far apart on every axis (less than that, if touching does not count), in the
   /// unit of the coordinates: a.min <= b.max + tolerance and b.min <= a.max + tolerance, of which nothing is rounded.

@@ -120,7 +120,7 @@ struct WorldStats {
 /// @par Memory
 /// In bytes, of floats (doubles): 74 (98) a box and 8 a pair after `shrink_to_fit`, and with what updates and queries
 /// keep at most 450 (660) and 66. Of the latter, where boxes move little, are candidates (pairs that nearly touch), at
-/// most eight for each box and two for each pair, which an update then mostly scans. What many pairs that begin or end
+/// most eight for each box and four for each pair, which an update then mostly scans. What many pairs that begin or end
 /// at once take goes back after eight updates with far fewer. Ids that have been used take 12.
 ///
 /// There are no shapes, bodies or contacts, and no data per pair.
@@ -230,7 +230,8 @@ class BOXSTREAM_API BasicWorld {
   /// Each new pair is held from now on and passed to `begin`. No later update reports it as begun.
   /// `accept` is called for overlapping pairs that are not held and that group and mask accept. With `accept_alone`
   /// group and mask are not tested: for filters that the World does not have yet. If it never gets them, the pair ends
-  /// at some later update. Pairs passed on before a std::bad_alloc stay held.
+  /// at some later update, but with `sticky_filters` stays while the boxes touch. Pairs passed on before a
+  /// std::bad_alloc stay held.
   void begin_pairs_of(ProxyId id, ProxyPairFilter accept, FunctionRef<void(ProxyPair)> begin,
                       bool accept_alone = false);
 

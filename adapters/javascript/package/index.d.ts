@@ -36,7 +36,7 @@ export interface Rules {
   tolerance?: number;
   /** 3 unless given. With 2 an array has min x, y, max x, y of each box, with 1 the two ends of each interval. */
   dimensions?: 1 | 2 | 3;
-  /** `"warn"` unless given: as `"skip"`, and more than a tenth of them are a warning on the console, with the likely layout. */
+  /** `"warn"` unless given: as `"skip"`, and if more than a tenth are invalid, a warning on the console names the likely layout. */
   invalid?: "warn" | Invalid;
 }
 
@@ -190,7 +190,7 @@ export class World extends Resource {
 
   /**
    * Pairs that began in the last update. This, `ended` and `pairs` are the same array each time until the next update or
-   * `clear`: whoever writes to it or transfers it does so for all who ask until then. Later updates do not change it.
+   * `clear`: copy it with `slice()` before writing to it or transferring it. Later updates do not change it.
    */
   get begun(): Float64Array;
   /** Pairs that ended in the last update. */

@@ -280,9 +280,9 @@ extern const Command accuracy_command{"accuracy", "Show what accuracy of a scene
 
 A knob is a key of the scene's blocks time and solver (bounces, cache_friction, contact_erp, dt, erp,
 friction_directions, iterations, margin of shapes, precision, residual, slop, solver, split_impulse, step, substeps,
-warmstart) or a JSON pointer to any other value (/bodies/0/friction; "*" is every element: /bodies/*/ccd). Several knobs:
-all combinations. Without a knob, and with --advise or --bound: solvers, bounces, iterations and substeps that are worth
-trying on the scene, and, one at a time, precision, margin and step.
+warmstart) or a JSON pointer to any other value (/materials/NAME/friction; "*" is every element: /bodies/*/ccd). Several
+knobs: all combinations. Without a knob, and with --advise or --bound: solvers, bounces, iterations and substeps that
+are worth trying on the scene, and, one at a time, precision, margin and step.
 
 Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
 joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Measures what docs/effects.md says effects do not do: sweep compounds, keep a fast body out of a thick obstacle, carry
-well on a belt that is a plane."""
+a box on a belt that is a plane without letting it sink in."""
 import csv
 import struct
 

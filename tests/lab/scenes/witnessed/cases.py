@@ -125,17 +125,17 @@ def joined():
     yield Case("cart_pendulum", "simbody", EVERYWHERE, "m", 1, None, JOINTS, "")
     yield Case("spring_between", "simbody", EVERYWHERE, "m", 1, None, JOINTS,
                "Bullet's own spring was 15 % off here at any step, and gained three quarters of the energy within a second: it aims at "
-               "a velocity, and stops pulling when the bodies would have it if they could not turn. Ours gives its force; what is left "
+               "a velocity, and stops pulling when the bodies would have it if they could not turn. The one here gives its force; what is left "
                "is the step, of first order.")
 
 
 def touching():
     yield Case("slide_stops", "ode", "how far it slides", "m", 0.85, lambda r: r.end(1, "x") + 1, TOUCH,
-               "v^2 / 2 mu g is 0.8507 m, as the witness says; ours is short by half of what it moves in a step. In both it comes to "
+               "v^2 / 2 mu g is 0.8507 m, as the witness says; boxstream is short by half of what it moves in a step. In both it comes to "
                "rest as straight as it started.")
     yield Case("slide_tips", "ode", "when it has turned by 45 degrees", "s", 0.7, lambda r: first_time(r, 1, lambda b: -tilt(b) - 45),
                TOUCH, "The witness itself depends on its rules: with a square of friction along fixed axes it says 0.699 s, and if "
-               "it mends 0.8 of a depth, 0.702 s. Ours says 0.699 to 0.702 s from 8 to 128 substeps.")
+               "it mends 0.8 of a depth, 0.702 s. boxstream says 0.699 to 0.702 s from 8 to 128 substeps.")
     yield Case("corner_hit", "ode", "spin of the box that is hit", "rad/s", 1.4,
                lambda r: math.sqrt(sum(r.end(1, k) ** 2 for k in ("wx", "wy", "wz"))), TOUCH,
                "One point of contact, no friction: all three laws of impact are the same. But what ODE mends of a depth counts as "
