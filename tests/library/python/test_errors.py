@@ -179,6 +179,14 @@ def test_invalid_boxes_can_be_an_error():
     assert boxstream.find_pairs(boxes[[0, 3]], invalid="raise").tolist() == [[0, 1]]
 
 
+def test_an_error_in_a_conversion_leaves_numpys_error_state():
+    before = np.geterr()
+    endless = np.broadcast_to(0.25, (2**43, 6))  # of which a copy has 192 TiB
+    with pytest.raises(MemoryError, match="192. TiB"):
+        boxstream.World("float32").create(endless)
+    assert np.geterr() == before
+
+
 @pytest.mark.parametrize("equal", [np.dtype("=f4"), np.dtype(np.float32, metadata={"unit": "m"})])
 def test_dtypes_that_are_float32(equal):
     assert len(boxstream.find_pairs(BOXES.astype(equal), copy=False)) == 6
