@@ -274,7 +274,7 @@ Numbers::Numbers(py::handle given, const char* name, const Wanted& wanted) {
     throw py::value_error(expected() + shape_of(array_) + shape_hint(name, array_, wanted));
   const bool is_float = scalar == Scalar::float32 || scalar == Scalar::float64;
   scalar_ = wanted.owner != nullptr ? wanted.scalar : is_float || wanted.integers ? scalar : Scalar::float64;
-  const bool is_own = array_.ptr() == given.ptr();
+  const bool is_own = py::isinstance<py::array>(given);  // of which array_ is at most another view
   if (is_own && has_dtype(array_, scalar_) && is_in_c_order(array_) && is_aligned(array_)) return;
   if (!wanted.may_copy) refuse_copy(array_, is_own, expected);
   const boxstream::detail::DefaultFloatEnvironment environment;  // rounding may be a trap of the caller's

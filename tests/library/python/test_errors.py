@@ -61,6 +61,23 @@ def test_copies_can_be_forbidden(given, text):
     assert len(boxstream.find_pairs(given)) == count * (count - 1) // 2
 
 
+class Own(np.ndarray):
+    """A class of the caller's."""
+
+
+@pytest.mark.parametrize("given", [
+    lambda path: np.memmap(path / "boxes", np.float32, "w+", shape=(3, 6)),
+    lambda path: np.zeros((3, 2, 3)).view(Own),
+    lambda path: np.ma.masked_array(np.zeros((3, 6), np.int32)),
+])
+def test_arrays_of_other_classes_need_no_copy(given, tmp_path):
+    assert len(boxstream.find_pairs(given(tmp_path), copy=False)) == 3
+
+
+def test_none_need_no_copy():
+    assert boxstream.find_pairs(np.zeros(0, np.int64), copy=False).shape == (0, 2)
+
+
 @pytest.mark.parametrize("call, error, text", [
     (lambda: boxstream.find_pairs(BOXES, BOXES[:, :3].copy()), ValueError, r"other: expected .*got float32 of shape"),
     (lambda: boxstream.find_pairs(BOXES, groups=np.zeros(4)), TypeError,
