@@ -2,6 +2,8 @@
 // A loop over queries, with the results of all of them in flat arrays.
 #include <limits>
 
+#include <boxstream/detail/rounded_up.hpp>
+
 #include "world.hpp"
 
 namespace boxstream::javascript {
@@ -33,7 +35,7 @@ struct Rays {
   BasicRay<S> ray(std::size_t i) const {
     const S* const o = static_cast<const S*>(origins) + 3 * i;
     const S* const d = static_cast<const S*>(directions) + 3 * i;
-    const S end = lengths == nullptr ? length_of<S>(length) : static_cast<const S*>(lengths)[i];
+    const S end = lengths == nullptr ? boxstream::detail::limit_of<S>(length) : static_cast<const S*>(lengths)[i];
     return BasicRay<S>::along({o[0], o[1], o[2]}, {d[0], d[1], d[2]}, end);
   }
 };
