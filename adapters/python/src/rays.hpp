@@ -56,7 +56,7 @@ class Rays {
     require_as_many(directions_.size(), "directions");
     if (lengths.is_none()) return;
     if (is_one_number(lengths)) {
-      length_ = number_of<double>(lengths, "lengths");
+      length_ = number_of(lengths, "lengths");
       return;
     }
     lengths_.emplace(lengths, "lengths", taken.wanted({}));
