@@ -62,6 +62,7 @@ export class Detector extends Resource {
   }
 
   get stats() {
+    Resource.handleOf(this);
     return this.#stats;
   }
 
