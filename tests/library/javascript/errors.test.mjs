@@ -118,6 +118,30 @@ test("arrays of another realm are taken", () => {
   assert.deepEqual([...findPairs(foreign)], [0, 1]);
 });
 
+/** Arrays whose class makes others than it is asked for. */
+function ownClassOf(Type) {
+  class Own extends Type {
+    constructor() {
+      super(12);
+    }
+  }
+  const own = new Own();
+  own.set([0, 0, 0, 2, 2, 2, 1, 1, 1, 3, 3, 3]);
+  return own;
+}
+
+test("arrays of classes that extend typed arrays are taken", () => {
+  for (const Type of [Float32Array, Float64Array, Int32Array]) {
+    const own = ownClassOf(Type);
+    assert.deepEqual([...findPairs(own)], [0, 1]);
+    for (const options of [{ dimensions: 2, invalid: "skip" }, { dimensions: 1 }])
+      assert.deepEqual([...findPairs(own, options)], [...findPairs(Type.from(own), options)]);
+  }
+  const world = new World();
+  const own = ownClassOf(Float32Array);
+  assert.deepEqual(world.boxes(world.create(own)), Float32Array.from(own));
+});
+
 test("arrays in shared memory are taken", () => {
   const shared = new Float32Array(new SharedArrayBuffer(48));
   assert.deepEqual([...findPairs(shared)], [0, 1]);
