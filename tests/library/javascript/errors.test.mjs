@@ -12,6 +12,9 @@ const numbers = "expected a Float32Array or Float64Array or Int32Array";
 
 const cases = [
   [() => new Detector({ method: "best" }), RangeError, 'method: expected "planned" or "hybrid", got "best"'],
+  [() => new Detector({ method: 7 }), TypeError, 'method: expected "planned" or "hybrid", got number'],
+  [() => new World({ dtype: 64n }), TypeError, 'dtype: expected "float32" or "float64", got bigint'],
+  [() => new World().create(boxes, { invalid: null }), TypeError, 'invalid: expected "warn" or "skip" or "throw", got null'],
   [() => new World({ cutoff: -1 }), RangeError, "cutoff: expected an integer of at least 0, got -1"],
   [() => new Detector({ cutoff: 2 ** 32 }), RangeError, "cutoff: expected an integer below 2^32, got 4294967296"],
   [() => findPairs(), TypeError, `boxes: ${numbers}, got undefined`],
