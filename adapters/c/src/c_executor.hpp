@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <memory>
 
 #include <boxstream/executor.hpp>
@@ -33,13 +36,23 @@ class CExecutor final : public Executor {
   boxstream_executor functions_;
 };
 
+/// What the first version of the struct had, which stays enough where it grows.
+constexpr std::size_t least_executor =
+    offsetof(boxstream_executor, start_nanoseconds) + sizeof(boxstream_executor::start_nanoseconds);
+
+/// As much of a struct as its user and the library know of; the rest is null.
+inline boxstream_executor known_of(const boxstream_executor& given) {
+  boxstream_executor known{};
+  std::memcpy(&known, &given, std::min(given.size, sizeof known));
+  return known;
+}
+
 /// Null for null.
 inline std::unique_ptr<Executor> make_executor(const boxstream_executor* functions) {
   if (functions == nullptr) return nullptr;
-  if (functions->size < sizeof(boxstream_executor) || functions->concurrency == nullptr ||
-      functions->parallel_for == nullptr)
+  if (functions->size < least_executor || functions->concurrency == nullptr || functions->parallel_for == nullptr)
     throw std::invalid_argument("an executor needs its size, concurrency and parallel_for");
-  return std::make_unique<CExecutor>(*functions);
+  return std::make_unique<CExecutor>(known_of(*functions));
 }
 
 }  // namespace boxstream::c

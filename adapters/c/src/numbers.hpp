@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/rounded_up.hpp>
 #include <boxstream/ray.hpp>
 
 #include "status.hpp"
@@ -15,6 +15,7 @@
 namespace boxstream::c {
 
 using detail::DefaultFloatEnvironment;
+using detail::rounded_up;
 
 /// `x`, computed here: what is in registers alone the compiler may compute on the other side of a change of the
 /// environment.
@@ -24,21 +25,11 @@ T computed(T x) {
   return here;
 }
 
-/// The least number of S that is not below `x`; a NaN stays one. In the default environment.
-template <class S>
-S rounded_up(double x) {
-  const S nearest = static_cast<S>(x);
-  return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
-}
-
-/// A limit or a length, rounded so that nothing is lost. A negative one, which nothing is within, stays negative:
-/// rounded up it could be -0, which a ray that starts inside of a box is within.
+/// A limit or a length, rounded so that nothing is lost.
 template <class S>
 S limit_of(double x) {
   const DefaultFloatEnvironment environment;
-  const double given = computed(x);
-  const bool is_negative = computed(given < 0);
-  return is_negative ? S{-1} : computed(rounded_up<S>(given));
+  return computed(detail::limit_of<S>(computed(x)));
 }
 
 template <class S>

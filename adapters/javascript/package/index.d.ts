@@ -36,7 +36,10 @@ export interface Rules {
   tolerance?: number;
   /** 3 unless given. With 2 an array has min x, y, max x, y of each box, with 1 the two ends of each interval. */
   dimensions?: 1 | 2 | 3;
-  /** `"warn"` unless given: as `"skip"`, and if more than a tenth are invalid, a warning on the console names the likely layout. */
+  /**
+   * `"warn"` unless given: as `"skip"`, and if more than a tenth are invalid, a warning on the console names the likely layout: once
+   * for each layout, in a page or worker.
+   */
   invalid?: "warn" | Invalid;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <stdexcept>
 
 #include <boxstream/detector.hpp>
@@ -25,15 +23,6 @@ template <class Use>
 auto with_scalar(Scalar scalar, Use use) {
   check(scalar);
   return scalar == float32 ? use(float{}) : use(double{});
-}
-
-/// The least number of S that is not below `x`; a NaN stays one, and what is negative stays negative: in a ray of
-/// length -0 there is its origin.
-template <class S>
-S length_of(double x) {
-  if (x < 0) return -1;
-  const S nearest = static_cast<S>(x);
-  return nearest < x ? std::nextafter(nearest, std::numeric_limits<S>::infinity()) : nearest;
 }
 
 /// Boxes of one of the types, integers among them.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A loop over queries, with the results of all of them in flat arrays.
+#include <algorithm>
 #include <limits>
+
+#include <boxstream/detail/rounded_up.hpp>
 
 #include "world.hpp"
 
@@ -33,7 +36,7 @@ struct Rays {
   BasicRay<S> ray(std::size_t i) const {
     const S* const o = static_cast<const S*>(origins) + 3 * i;
     const S* const d = static_cast<const S*>(directions) + 3 * i;
-    const S end = lengths == nullptr ? length_of<S>(length) : static_cast<const S*>(lengths)[i];
+    const S end = lengths == nullptr ? boxstream::detail::limit_of<S>(length) : static_cast<const S*>(lengths)[i];
     return BasicRay<S>::along({o[0], o[1], o[2]}, {d[0], d[1], d[2]}, end);
   }
 };
@@ -120,7 +123,7 @@ Status boxstream_cast_rays(WorldHandle* handle, const void* origins, const void*
 BOXSTREAM_EXPORT(queryNearest)
 Status boxstream_query_nearest(WorldHandle* handle, const void* points, std::size_t count, std::size_t each) {
   return with_world(handle, [&]<class S>(const boxstream::BasicWorld<S>& world) {
-    std::vector<boxstream::ProxyId> nearest(each);
+    std::vector<boxstream::ProxyId> nearest(std::min(each, world.size()));
     std::vector<double>& out = give(0, std::vector<double>(count * each));
     for (std::size_t i = 0; i < count; ++i) {
       const S* const p = static_cast<const S*>(points) + 3 * i;

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+from array import array
+from mmap import mmap
 from typing import Any, Callable, List, Literal, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -16,6 +18,7 @@ _Invalid = Literal["warn", "skip", "raise"]
 _Method = Literal["planned", "hybrid"]
 _Callback = Callable[[_Pairs], object]
 _Lengths = Optional[_Numbers]
+_Saved = Union[bytes, bytearray, memoryview, mmap, array[Any], npt.NDArray[Any]]
 
 __version__: str
 
@@ -193,7 +196,7 @@ class BoxIndex:
     def query_nearest(self, points: _Numbers, count: int = 1) -> npt.NDArray[np.int64]: ...
     def save(self) -> bytes: ...
     @staticmethod
-    def load(saved: bytes, *, dimensions: int = 3) -> BoxIndex: ...
+    def load(saved: _Saved, *, dimensions: int = 3) -> BoxIndex: ...
 
 class World:
     def __init__(
@@ -210,7 +213,7 @@ class World:
     def dtype(self) -> np.dtype[Any]: ...
     def save(self) -> bytes: ...
     @staticmethod
-    def load(saved: bytes, executor: Optional[Executor] = None) -> World: ...
+    def load(saved: _Saved, executor: Optional[Executor] = None) -> World: ...
     def create(
         self,
         boxes: _Numbers,

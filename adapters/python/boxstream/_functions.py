@@ -102,7 +102,8 @@ def find_near_pairs(points, distance, *, radii=None, dimensions=3, dtype="int64"
 
     points: array of floats or integers, shape (n, 3), or (n, dimensions): centres.
     distance: float, finite, not below 0.
-    radii: None for points; a number for all; or an array of the type of points, shape (n,).
+    radii: None for points; a number for all, which is not rounded to the type of points; or an array of that type,
+        shape (n,).
     invalid: as in find_pairs, of points with a number that is not finite, or a radius below 0.
     dimensions, dtype, max_pairs, executor: as in find_pairs.
 

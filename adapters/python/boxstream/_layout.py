@@ -13,7 +13,7 @@ class InvalidBoxesWarning(UserWarning):
 def likely_layout(boxes):
     """A sentence about an array of boxes, (n, 2 d) or (n, 2, d); '' if it looks like none that is known."""
     dimensions = boxes.shape[-1] if boxes.ndim == 3 else boxes.shape[1] // 2
-    flat = boxes.reshape(len(boxes), 2 * dimensions)
+    flat = boxes.reshape(len(boxes), 2 * dimensions).astype(float)  # squares of large float32 overflow
     with_nan = np.isnan(flat).any(axis=1).sum()
     if with_nan > 0 and with_nan >= 0.1 * len(flat):
         return f"{with_nan} have a NaN"
@@ -34,14 +34,17 @@ def likely_layout(boxes):
 
 
 def _warn(text):
-    # Above are warn_of_..., which the extension calls, and the caller, or a function of the package that it has called.
-    level = 4 if sys._getframe(2).f_globals.get("__name__") == "boxstream._functions" else 3
+    # Above are warn_of_..., which the extension calls, and the caller, or a function of the package that it has called;
+    # nothing, if the caller is no Python.
+    caller = sys._getframe(1).f_back
+    level = 4 if caller is not None and caller.f_globals.get("__name__") == "boxstream._functions" else 3
     warnings.warn(text + "; invalid='skip' says nothing of that, invalid='raise' names the first", InvalidBoxesWarning,
                   stacklevel=level)
 
 
 def warn_of_boxes(boxes, other, invalid, count):
-    hints = [hint for hint in (likely_layout(each) for each in (boxes, other) if each is not None) if hint]
+    with np.errstate(all="ignore"):  # which the caller may have made exceptions
+        hints = [hint for hint in (likely_layout(each) for each in (boxes, other) if each is not None) if hint]
     _warn(f"{invalid} of {count} boxes are invalid (a NaN, or min > max) and pair with nothing" +
           "".join(f"; {hint}" for hint in dict.fromkeys(hints)))
 

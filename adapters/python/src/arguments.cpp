@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arguments.hpp"
 
-#include <boxstream/detail/float_environment.hpp>
-
 namespace boxstream::python {
 
 namespace {
@@ -26,11 +24,9 @@ bool is_one_number(py::handle given) {
   return py::hasattr(given, "ndim") && given.attr("ndim").cast<int>() == 0;
 }
 
-template <class S>
-S number_of(py::handle given, const char* name) {
+double number_of(py::handle given, const char* name) {
   const double value = PyFloat_AsDouble(given.ptr());
-  const boxstream::detail::DefaultFloatEnvironment environment;
-  if (PyErr_Occurred() == nullptr) return static_cast<S>(value);
+  if (PyErr_Occurred() == nullptr) return value;
   if (PyErr_ExceptionMatches(PyExc_OverflowError) != 0) {
     PyErr_Clear();
     throw py::value_error(std::string(name) + ": expected a number that float64 has, got one that is too large");
@@ -40,9 +36,6 @@ S number_of(py::handle given, const char* name) {
   PyErr_Clear();
   refuse_type(name, "a number", given);
 }
-
-template float number_of<float>(py::handle, const char*);
-template double number_of<double>(py::handle, const char*);
 
 std::size_t count_of(py::handle given, const char* name, std::size_t least) {
   if (PyIndex_Check(given.ptr()) == 0) refuse_type(name, "an integer", given);

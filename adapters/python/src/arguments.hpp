@@ -26,9 +26,8 @@ std::string type_of(py::handle object);
 /// Whether it is one number, or nothing that could be several: to be read by `number_of`.
 bool is_one_number(py::handle given);
 
-/// Any number that Python takes for a float, rounded to a float or double without raising a trap of the caller's.
-template <class S>
-S number_of(py::handle given, const char* name);
+/// Any number that Python takes for a float.
+double number_of(py::handle given, const char* name);
 
 /// An integer that is not below `least`.
 std::size_t count_of(py::handle given, const char* name, std::size_t least);

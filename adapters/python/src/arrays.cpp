@@ -175,16 +175,37 @@ py::array converted(const py::array& array, Scalar scalar) {
   return numpy().attr("require")(array, dtype_of(scalar), "CA");
 }
 
-/// A copy of another type, refused if a number differs.
-py::array converted_exactly(const py::array& array, Scalar scalar, Expected expected, const char* name) {
-  const py::object ignoring = numpy().attr("errstate")(py::arg("all") = "ignore");
-  ignoring.attr("__enter__")();
+/// NumPy says nothing of floating-point errors while this lives.
+class QuietNumPy {
+ public:
+  QuietNumPy() : state_(numpy().attr("errstate")(py::arg("all") = "ignore")) { state_.attr("__enter__")(); }
+  ~QuietNumPy() {
+    try {
+      state_.attr("__exit__")(py::none(), py::none(), py::none());
+    } catch (py::error_already_set& error) {
+      error.discard_as_unraisable(__func__);
+    }
+  }
+  QuietNumPy(const QuietNumPy&) = delete;
+  QuietNumPy& operator=(const QuietNumPy&) = delete;
+
+ private:
+  py::object state_;
+};
+
+/// A copy of another type, and whether it has the same numbers.
+std::pair<py::array, bool> copy_of(const py::array& array, Scalar scalar) {
+  const QuietNumPy quiet;
   const py::array copy = converted(array, scalar);
   const py::object back = copy.attr("astype")(array.dtype());
-  const bool same =
-      numpy().attr("array_equal")(array, back, py::arg("equal_nan") = array.dtype().kind() == 'f').cast<bool>();
-  ignoring.attr("__exit__")(py::none(), py::none(), py::none());
-  if (same) return copy;
+  const bool has_nans = array.dtype().kind() == 'f';
+  return {copy, numpy().attr("array_equal")(array, back, py::arg("equal_nan") = has_nans).cast<bool>()};
+}
+
+/// A copy of another type, refused if a number differs.
+py::array converted_exactly(const py::array& array, Scalar scalar, Expected expected, const char* name) {
+  const auto [copy, is_same] = copy_of(array, scalar);
+  if (is_same) return copy;
   const std::string dtype = text_of(dtype_of(scalar));
   throw py::type_error(expected() + text_of(array.dtype()) + " that it does not have: numpy.asarray(" + name +
                        ", numpy." + dtype + ") rounds");
@@ -253,7 +274,7 @@ Numbers::Numbers(py::handle given, const char* name, const Wanted& wanted) {
     throw py::value_error(expected() + shape_of(array_) + shape_hint(name, array_, wanted));
   const bool is_float = scalar == Scalar::float32 || scalar == Scalar::float64;
   scalar_ = wanted.owner != nullptr ? wanted.scalar : is_float || wanted.integers ? scalar : Scalar::float64;
-  const bool is_own = array_.ptr() == given.ptr();
+  const bool is_own = py::isinstance<py::array>(given);  // of which array_ is at most another view
   if (is_own && has_dtype(array_, scalar_) && is_in_c_order(array_) && is_aligned(array_)) return;
   if (!wanted.may_copy) refuse_copy(array_, is_own, expected);
   const boxstream::detail::DefaultFloatEnvironment environment;  // rounding may be a trap of the caller's

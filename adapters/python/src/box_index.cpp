@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -21,6 +22,9 @@ constexpr const char* owner = "the index has";
 /// Boxes that are asked at a time: between two of such portions signals are handled.
 constexpr std::size_t portion = 4096;
 
+/// What a stored box of float32 takes.
+constexpr std::size_t bytes_of_a_box = 28;
+
 /// Boxes as they are given, of float64 where they are integers.
 std::shared_ptr<const Boxes> boxes_of(py::handle given, const BoxFormat& format) {
   auto boxes = std::make_shared<const Boxes>(given, "boxes", format);
@@ -29,15 +33,20 @@ std::shared_ptr<const Boxes> boxes_of(py::handle given, const BoxFormat& format)
                                        format.dimensions, format.may_copy);
 }
 
+/// `work()` of so many boxes, without the interpreter's lock. Where they are many it is run apart: it owns all that it
+/// uses.
+void run_unlocked(std::size_t boxes, const std::function<void()>& work) {
+  if (boxes < least_apart)
+    without_lock([&](const Unlocked&) { work(); });
+  else
+    run_apart(work);
+}
+
 std::variant<BoxIndex, BoxIndex64> built(const std::shared_ptr<const Boxes>& boxes) {
   const auto index = std::make_shared<std::variant<BoxIndex, BoxIndex64>>();
-  const auto build = [boxes, index] {
+  run_unlocked(boxes->size(), [boxes, index] {
     with_float(boxes->scalar(), [&](auto s) { *index = BasicBoxIndex<decltype(s)>(boxes->as<decltype(s)>()); });
-  };
-  if (boxes->size() < least_apart)
-    without_lock([&](const Unlocked&) { build(); });
-  else
-    run_apart(build);
+  });
   return std::move(*index);
 }
 
@@ -48,18 +57,18 @@ std::variant<BoxIndex, BoxIndex64> loaded(const py::bytes& saved) {
   if (PyBytes_AsStringAndSize(saved.ptr(), &data, &size) != 0) throw py::error_already_set();
   const Span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(data), static_cast<std::size_t>(size));
   const bool is_double = size > 12 && data[12] == 8;
-  std::variant<BoxIndex, BoxIndex64> index;
-  try {
-    without_lock([&](const Unlocked&) {
+  const auto index = std::make_shared<std::variant<BoxIndex, BoxIndex64>>();
+  run_unlocked(bytes.size() / bytes_of_a_box, [saved, bytes, is_double, index] {
+    try {
       if (is_double)
-        index = BoxIndex64::load(bytes);
+        *index = BoxIndex64::load(bytes);
       else
-        index = BoxIndex::load(bytes);
-    });
-  } catch (const std::runtime_error& error) {
-    throw py::value_error(error.what());
-  }
-  return index;
+        *index = BoxIndex::load(bytes);
+    } catch (const std::runtime_error& error) {
+      throw py::value_error(error.what());
+    }
+  });
+  return std::move(*index);
 }
 
 constexpr std::int64_t nothing = -1;
@@ -78,9 +87,11 @@ PyBoxIndex::PyBoxIndex(const py::bytes& saved, py::handle dimensions)
     : dimensions_(dimensions_of(dimensions)), indices_(loaded(saved)) {}
 
 py::bytes PyBoxIndex::save() const {
-  const auto bytes = without_lock(
-      [&](const Unlocked&) { return std::visit([](const auto& index) { return index.save(); }, indices_); });
-  return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto bytes = std::make_shared<std::vector<std::uint8_t>>();
+  run_unlocked(size(), [this, self = py::cast(this, py::return_value_policy::reference), bytes] {
+    *bytes = std::visit([](const auto& index) { return index.save(); }, indices_);
+  });
+  return py::bytes(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
 std::size_t PyBoxIndex::size() const {

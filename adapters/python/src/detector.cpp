@@ -47,11 +47,12 @@ py::tuple PyDetector::find_pairs_in_sets(SearchPointer search, py::handle offset
   std::vector<std::uint64_t> sets_a = offsets_of(offsets, "offsets", search->a().size()), sets_b;
   if (search->has_other()) sets_b = offsets_of(other_offsets, "other_offsets", search->b().size());
   const auto found = std::make_shared<PairsOfSets>();
-  run_whole(search->boxes(), [search, found, sets_a = std::move(sets_a), sets_b = std::move(sets_b)](Detector& detector,
-                                                                                                     GoesOn) {
-    return search->has_other() ? detector.find_pairs(search->a(), sets_a, search->b(), sets_b, *found, search->rules())
-                               : detector.find_pairs(search->a(), sets_a, *found, search->rules());
-  });
+  run_whole(search->boxes(), least_apart_silent,
+            [search, found, sets_a = std::move(sets_a), sets_b = std::move(sets_b)](Detector& detector, GoesOn) {
+              return search->has_other()
+                         ? detector.find_pairs(search->a(), sets_a, search->b(), sets_b, *found, search->rules())
+                         : detector.find_pairs(search->a(), sets_a, *found, search->rules());
+            });
   search->warn(stats_);
   return py::make_tuple(index_array(std::move(found->pairs), indices, 2),
                         array_of<std::int64_t>(std::move(found->offsets)));
@@ -61,7 +62,7 @@ py::tuple PyDetector::find_neighbours(SearchPointer search, py::handle both, py:
   const Indices indices = indices_of(dtype);
   const Directions directions = flag_of(both, "both") ? Directions::both : Directions::one;
   const auto found = std::make_shared<Neighbours>();
-  run_whole(search->boxes(), [search, found, directions](Detector& detector, GoesOn) {
+  run_whole(search->boxes(), least_apart_silent, [search, found, directions](Detector& detector, GoesOn) {
     return search->has_other() ? detector.find_neighbours(search->a(), search->b(), *found, search->rules())
                                : detector.find_neighbours(search->a(), *found, search->rules(), directions);
   });

@@ -55,12 +55,13 @@ class PyDetector {
     stats_ = without_lock([&](const Unlocked& unlocked) { return search(detector_, unlocked); });
   }
 
-  /// `search(detector, goes_on)` of so many boxes, alone in this detector. Where they are many it is run apart, and may
-  /// run on after this has thrown: it owns all that it uses, and this detector stays in use. `goes_on` is to be called
-  /// now and then: it handles signals, and returns false once the result is no longer wanted.
+  /// `search(detector, goes_on)` of so many boxes, alone in this detector. From `least` on it is run apart, and may run
+  /// on after this has thrown: it owns all that it uses, and this detector stays in use. `goes_on` is to be called now
+  /// and then: it handles signals, and returns false once the result is no longer wanted. A search that cannot call it
+  /// has `least_apart_silent`.
   template <class Search>
-  void run_whole(std::size_t boxes, Search search) {
-    if (boxes < least_apart) {
+  void run_whole(std::size_t boxes, std::size_t least, Search search) {
+    if (boxes < least) {
       run([&](Detector& detector, const Unlocked& unlocked) {
         Signals signals(unlocked);
         return search(detector, GoesOn([&] {
@@ -96,7 +97,7 @@ class PyDetector {
     };
     const auto collected = std::make_shared<Collected>();
     try {
-      run_whole(boxes, [collected, most, find = std::move(find)](Detector& detector, GoesOn goes_on) {
+      run_whole(boxes, least_apart, [collected, most, find = std::move(find)](Detector& detector, GoesOn goes_on) {
         auto& [pairs, too_many] = *collected;
         const auto add = [&](Span<const Pair> found) {
           if (!goes_on()) return false;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <boxstream/detail/rounded_up.hpp>
+
 #include "arrays.hpp"
 
 namespace boxstream::python {
@@ -54,9 +56,7 @@ class Rays {
     require_as_many(directions_.size(), "directions");
     if (lengths.is_none()) return;
     if (is_one_number(lengths)) {
-      const double given = number_of<double>(lengths, "lengths");
-      const boxstream::detail::DefaultFloatEnvironment environment;
-      length_ = given < 0 ? -1 : given;  // a float could be -0, and in a ray of that length there is its origin
+      length_ = number_of(lengths, "lengths");
       return;
     }
     lengths_.emplace(lengths, "lengths", taken.wanted({}));
@@ -70,7 +70,7 @@ class Rays {
     const boxstream::detail::DefaultFloatEnvironment environment;  // it is made here, not in the library
     const auto o = origins_.point<S>(i), d = directions_.point<S>(i);
     return BasicRay<S>::along({o[0], o[1], o[2]}, {d[0], d[1], d[2]},
-                              lengths_ ? lengths_->data<S>()[i] : static_cast<S>(length_));
+                              lengths_ ? lengths_->data<S>()[i] : boxstream::detail::limit_of<S>(length_));
   }
 
  private:

@@ -11,7 +11,7 @@ static_assert(sizeof(Ball) == 4 * sizeof(float) && sizeof(Ball64) == 4 * sizeof(
 namespace {
 
 double distance_of(py::handle given, const char* name) {
-  const double distance = number_of<double>(given, name);
+  const double distance = number_of(given, name);
   if (!std::isfinite(distance) || distance < 0)
     throw py::value_error(std::string(name) + ": expected a finite number that is not below 0, got " + text_of(given));
   return distance;
@@ -99,16 +99,23 @@ bool is_valid_ball(const BasicBall<S>& ball) {
          std::isfinite(ball.radius) && ball.radius >= 0;
 }
 
-template <class S>
-std::vector<BasicBall<S>> balls_of(const Numbers& points, const Numbers* radii, S radius, int dimensions) {
+/// Of points of `P`, which S has all numbers of.
+template <class S, class P>
+std::vector<BasicBall<S>> balls_of(const Numbers& points, const Numbers* radii, double radius, int dimensions) {
+  const boxstream::detail::DefaultFloatEnvironment environment;  // some NaNs of floats are traps as doubles
   std::vector<BasicBall<S>> balls(points.size());
-  const S* coordinate = points.data<S>();
+  const P* coordinate = points.data<P>();
   for (std::size_t i = 0; i < balls.size(); ++i) {
-    for (int d = 0; d < dimensions; ++d) balls[i].centre[d] = *coordinate++;
+    for (int d = 0; d < dimensions; ++d) balls[i].centre[d] = static_cast<S>(*coordinate++);
     for (int d = dimensions; d < 3; ++d) balls[i].centre[d] = 0;
-    balls[i].radius = radii != nullptr ? radii->data<S>()[i] : radius;
+    balls[i].radius = static_cast<S>(radii != nullptr ? radii->data<P>()[i] : radius);
   }
   return balls;
+}
+
+bool is_float(double x) {
+  const boxstream::detail::DefaultFloatEnvironment environment;
+  return static_cast<float>(x) == x;
 }
 
 }  // namespace
@@ -127,10 +134,13 @@ NearSearch::NearSearch(const NearArguments& given)
       throw py::value_error("radii: expected one for each of " + std::to_string(points.size()) + " points, got " +
                             std::to_string(radii->size()));
   }
-  with_float(points.scalar(), [&](auto s) {
+  const double radius = given.radii.is_none() || radii ? 0 : number_of(given.radii, "radii");
+  // Nothing is rounded: with a radius that is no float, points of floats are centres of doubles.
+  with_float(is_float(radius) ? points.scalar() : Scalar::float64, [&](auto s) {
     using S = decltype(s);
-    const S radius = given.radii.is_none() || radii ? S{0} : number_of<S>(given.radii, "radii");
-    auto balls = balls_of<S>(points, radii ? &*radii : nullptr, radius, dimensions);
+    auto balls = with_float(points.scalar(), [&](auto p) {
+      return balls_of<S, decltype(p)>(points, radii ? &*radii : nullptr, radius, dimensions);
+    });
     if (invalid_ == Invalid::raise)
       require_valid(Span<const BasicBall<S>>(balls), "points", "a number that is not finite, or a radius below 0",
                     is_valid_ball<S>);

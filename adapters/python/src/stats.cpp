@@ -11,7 +11,7 @@ std::string text_of(const Stats& stats) {
   std::ostringstream text;
   text << "boxstream.Stats(boxes=" << stats.boxes << ", invalid=" << stats.invalid << ", pairs=" << stats.pairs
        << ", nodes=" << stats.nodes << ", cells=" << stats.cells << ", records=" << stats.records
-       << ", tests=" << stats.tests << ")";
+       << ", tests=" << stats.tests << ", over_budget=" << stats.over_budget << ")";
   return text.str();
 }
 

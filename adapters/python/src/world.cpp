@@ -129,7 +129,7 @@ WorldStats PyWorld::update() {
     changed_ = false;
     journal_.forget_stale(world);
   };
-  if (size() < least_apart)
+  if (size() < least_apart_silent)
     change(update);
   else
     change_apart(update);
@@ -202,15 +202,7 @@ py::array PyWorld::ended() {
 }
 
 py::array PyWorld::pairs() {
-  return pair_array(read([](const auto& world) {
-    std::vector<ProxyPair> pairs;
-    pairs.reserve(world.pair_count());
-    world.stream_pairs([&](Span<const ProxyPair> batch) {
-      pairs.insert(pairs.end(), batch.begin(), batch.end());
-      return true;
-    });
-    return pairs;
-  }));
+  return pair_array(read_long([](const auto& world, Signals& signals) { return pairs_in(world, signals); }));
 }
 
 }  // namespace boxstream::python

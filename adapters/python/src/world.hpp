@@ -61,7 +61,7 @@ class PyWorld {
     return without_lock([&](const Unlocked&) { return std::visit(use, worlds_); });
   }
 
-  /// `use(world)` as `change`, of so many boxes that it may take long: run apart, which may go on when this has thrown.
+  /// `use(world)` as `change`, of so many boxes that it may take long: run apart, and may run on after this has thrown.
   template <class Use>
   void change_apart(Use use) {
     struct Held {
@@ -80,20 +80,24 @@ class PyWorld {
     return without_lock([&](const Unlocked&) { return std::visit(use, std::as_const(worlds_)); });
   }
 
-  /// `use(world, i)` for each of `count` queries, as `read`. Signals are handled between two of them.
+  /// `use(world, signals)` as `read`, which checks them now and then.
+  template <class Use>
+  auto read_long(Use use) {
+    const Usage::Read read(usage_);
+    return without_lock([&](const Unlocked& unlocked) {
+      Signals signals(unlocked);
+      return std::visit([&](const auto& world) { return use(world, signals); }, worlds_);
+    });
+  }
+
+  /// `use(world, i)` for each of `count` queries, as `read_long`.
   template <class Use>
   void query_each(std::size_t count, Use use) {
-    const Usage::Read read(usage_);
-    without_lock([&](const Unlocked& unlocked) {
-      std::visit(
-          [&](const auto& world) {
-            Signals signals(unlocked);
-            for (std::size_t i = 0; i < count; ++i) {
-              signals.check();
-              use(world, i);
-            }
-          },
-          worlds_);
+    read_long([&](const auto& world, Signals& signals) {
+      for (std::size_t i = 0; i < count; ++i) {
+        signals.check();
+        use(world, i);
+      }
     });
   }
 
@@ -117,6 +121,16 @@ class PyWorld {
     std::vector<ProxyPair> begun, ended;
   };
 
+  static std::vector<ProxyPair> pairs_in(const auto& world, Signals& signals) {
+    std::vector<ProxyPair> pairs;
+    pairs.reserve(world.pair_count());
+    world.stream_pairs([&](Span<const ProxyPair> batch) {
+      signals.check();
+      pairs.insert(pairs.end(), batch.begin(), batch.end());
+      return true;
+    });
+    return pairs;
+  }
   std::vector<ProxyPair> begun_in(const auto& world) const {
     return last_ ? last_->begun : std::vector<ProxyPair>(world.begun().begin(), world.begun().end());
   }

@@ -142,7 +142,8 @@ Returns two arrays of shape (k,): int64, which of boxes, ascending; uint64, ids,
 Proxies that each ray meets: the points origin + t * direction, 0 <= t <= length.
 
 origins, directions: arrays of the World's dtype, shape (n, 3). Directions need no unit length.
-lengths: float, or array of the World's dtype, shape (n,), in multiples of the directions; None: no end.
+lengths: float, rounded up to the World's dtype, or array of that, shape (n,), in multiples of the directions; None: no
+    end.
 
 Returns three arrays of shape (k,): int64, which ray, ascending; uint64, ids, for one ray in no particular order; the
 World's dtype, t where the ray enters, 0 if it starts inside.)")

@@ -39,9 +39,15 @@ static_assert(sizeof(Header) == 80);
   throw py::value_error(std::string("these bytes are not of a World: ") + why);
 }
 
-std::uint64_t checksum_of(const std::uint8_t* bytes, std::size_t size) {
-  std::uint64_t sum = size;
-  for (std::size_t i = 0; i < size; ++i) sum = (sum ^ bytes[i]) * 0x100000001b3;
+/// Of a World's bytes; those of the checksum itself count as zeros.
+std::uint64_t checksum_of(Span<const std::uint8_t> bytes, Signals& signals) {
+  constexpr std::size_t own = offsetof(Header, checksum), portion = 1 << 20;
+  std::uint64_t sum = bytes.size();
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (i % portion == 0) signals.check();
+    const bool is_own = i >= own && i < own + sizeof(Header::checksum);
+    sum = (sum ^ (is_own ? 0 : bytes[i])) * 0x100000001b3;
+  }
   return sum;
 }
 
@@ -144,6 +150,7 @@ class Restoring {
 
   void update() {
     world_.update([&](ProxyId a, ProxyId b) {
+      signals_.check();
       return std::binary_search(held_.begin(), held_.end(), std::pair(key_of(a), key_of(b)));
     });
   }
@@ -175,22 +182,20 @@ void PyWorld::Journal::note(Span<const ProxyId> ids) noexcept {
 }
 
 py::bytes PyWorld::save() {
-  const std::vector<std::uint8_t> saved = read([&]<class S>(const BasicWorld<S>& world) {
+  const auto saved = read_long([&]<class S>(const BasicWorld<S>& world, Signals& signals) {
     if (changed_)
       throw std::runtime_error("a World can be saved after update(): its boxes or filters have changed since");
     Contents<S> all;
     all.generations = journal_.generations;
     for (const ProxyId id : journal_.created) {
+      signals.check();
       if (!world.contains(id)) continue;
       all.ids.push_back(id);
       all.boxes.push_back(world.box(id));
       all.filters.push_back(world.filter(id));
       all.users.push_back(world.user(id));
     }
-    world.stream_pairs([&](Span<const ProxyPair> batch) {
-      all.pairs.insert(all.pairs.end(), batch.begin(), batch.end());
-      return true;
-    });
+    all.pairs = pairs_in(world, signals);
     all.begun = begun_in(world);
     all.ended = ended_in(world);
     all.header = {{},
@@ -215,7 +220,7 @@ py::bytes PyWorld::save() {
     };
     std::apply([&](const auto&... each) { (put(each), ...); }, all.arrays());
     std::memcpy(bytes.data(), &all.header, sizeof(Header));
-    all.header.checksum = checksum_of(bytes.data(), bytes.size());
+    all.header.checksum = checksum_of(bytes, signals);
     std::memcpy(bytes.data(), &all.header, sizeof(Header));
     return bytes;
   });
@@ -225,7 +230,7 @@ py::bytes PyWorld::save() {
 namespace {
 
 /// Throws unless the bytes are as many as they say, and what was saved.
-Header header_of(Span<const std::uint8_t> bytes) {
+Header header_of(Span<const std::uint8_t> bytes, Signals& signals) {
   Header header;
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), magic, sizeof header.magic) != 0)
     refuse("they do not begin as one");
@@ -235,9 +240,7 @@ Header header_of(Span<const std::uint8_t> bytes) {
   // Each of these is of at least 4 bytes: their sum cannot overflow.
   for (const std::uint64_t count : {header.slots, header.proxies, header.pairs, header.begun, header.ended})
     if (count > bytes.size() / 4) refuse("cut off");
-  std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
-  std::memset(copy.data() + offsetof(Header, checksum), 0, sizeof header.checksum);
-  if (checksum_of(copy.data(), copy.size()) != header.checksum) refuse("they have changed");
+  if (checksum_of(bytes, signals) != header.checksum) refuse("they have changed");
   return header;
 }
 
@@ -266,7 +269,10 @@ std::unique_ptr<PyWorld> PyWorld::load(const py::bytes& saved, py::handle execut
   py::ssize_t size = 0;
   if (PyBytes_AsStringAndSize(saved.ptr(), &data, &size) != 0) throw py::error_already_set();
   const Span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(data), static_cast<std::size_t>(size));
-  const Header header = header_of(bytes);
+  const Header header = without_lock([&](const Unlocked& unlocked) {
+    Signals signals(unlocked);
+    return header_of(bytes, signals);
+  });
   WorldOptions options;
   options.sticky_filters = header.sticky != 0;
   options.method = header.hybrid != 0 ? Method::hybrid : Method::planned;

@@ -341,6 +341,36 @@ TEST(BadExecutors, MakeNothing) {
   }
 }
 
+void run_counted(void* user, std::size_t count, void (*task)(void*, std::size_t), void* context) {
+  ++*static_cast<int*>(user);
+  for (std::size_t i = 0; i < count; ++i) task(context, i);
+}
+
+/// As that of a program with a header of a later version.
+TEST(Executors, MayHaveMembersThatTheLibraryDoesNotKnow) {
+  constexpr int side = 150;
+  std::vector<Box<float>> boxes;
+  for (int i = 0; i < side * side; ++i) {
+    const float x = static_cast<float>(i % side), y = static_cast<float>(i / side);
+    boxes.push_back({x, y, 0, x + 1, y + 1, 1});
+  }
+  struct Later {
+    boxstream_executor known;
+    void* more[3];
+  };
+  int runs = 0;
+  const auto two = [](void*) { return 2u; };
+  const auto at_once = [](void*) { return std::uint32_t{0}; };
+  const Later later{{sizeof(Later), &runs, two, run_counted, at_once}, {}};
+  const Detector detector = make_detector(&later.known);
+  const boxstream_boxes view = view_of(boxes);
+  const boxstream_pair* pairs = nullptr;
+  std::size_t count = 0;
+  ASSERT_EQ(boxstream_find_pairs(detector.get(), &view, nullptr, &pairs, &count, nullptr), BOXSTREAM_OK);
+  EXPECT_EQ(count, std::size_t{2 * side * (side - 1) + 2 * (side - 1) * (side - 1)});
+  EXPECT_GT(runs, 0);
+}
+
 /// Those that have no status answer with what an empty world would.
 TEST(NoWorld, IsAnEmptyOne) {
   std::size_t count = 7;

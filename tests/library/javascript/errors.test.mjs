@@ -12,6 +12,9 @@ const numbers = "expected a Float32Array or Float64Array or Int32Array";
 
 const cases = [
   [() => new Detector({ method: "best" }), RangeError, 'method: expected "planned" or "hybrid", got "best"'],
+  [() => new Detector({ method: 7 }), TypeError, 'method: expected "planned" or "hybrid", got number'],
+  [() => new World({ dtype: 64n }), TypeError, 'dtype: expected "float32" or "float64", got bigint'],
+  [() => new World().create(boxes, { invalid: null }), TypeError, 'invalid: expected "warn" or "skip" or "throw", got null'],
   [() => new World({ cutoff: -1 }), RangeError, "cutoff: expected an integer of at least 0, got -1"],
   [() => new Detector({ cutoff: 2 ** 32 }), RangeError, "cutoff: expected an integer below 2^32, got 4294967296"],
   [() => findPairs(), TypeError, `boxes: ${numbers}, got undefined`],
@@ -116,6 +119,30 @@ test("arrays of another realm are taken", () => {
   const foreign = vm.runInNewContext("Float32Array.of(0, 0, 0, 1, 1, 1, 1, 0, 0, 2, 1, 1)");
   assert.ok(!(foreign instanceof Float32Array));
   assert.deepEqual([...findPairs(foreign)], [0, 1]);
+});
+
+/** Arrays whose class makes others than it is asked for. */
+function ownClassOf(Type) {
+  class Own extends Type {
+    constructor() {
+      super(12);
+    }
+  }
+  const own = new Own();
+  own.set([0, 0, 0, 2, 2, 2, 1, 1, 1, 3, 3, 3]);
+  return own;
+}
+
+test("arrays of classes that extend typed arrays are taken", () => {
+  for (const Type of [Float32Array, Float64Array, Int32Array]) {
+    const own = ownClassOf(Type);
+    assert.deepEqual([...findPairs(own)], [0, 1]);
+    for (const options of [{ dimensions: 2, invalid: "skip" }, { dimensions: 1 }])
+      assert.deepEqual([...findPairs(own, options)], [...findPairs(Type.from(own), options)]);
+  }
+  const world = new World();
+  const own = ownClassOf(Float32Array);
+  assert.deepEqual(world.boxes(world.create(own)), Float32Array.from(own));
 });
 
 test("arrays in shared memory are taken", () => {

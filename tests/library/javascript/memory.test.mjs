@@ -46,11 +46,15 @@ test("what is out of reach is given back", async () => {
 
 test("a freed object says so", () => {
   const [world, detector] = [new World(), new Detector()];
+  world.create(crowd(2));
+  world.update();
+  assert.equal(world.pairs.length + world.begun.length + world.ended.length, 4); // which it keeps for the next that ask
   world.free();
   detector.free();
-  assert.throws(() => world.update(), { name: "Error", message: "this World has been freed" });
-  assert.throws(() => world.create(crowd(1)), { name: "Error", message: "this World has been freed" });
-  assert.throws(() => detector.findPairs(crowd(1)), { name: "Error", message: "this Detector has been freed" });
+  for (const use of [() => world.update(), () => world.create(crowd(1)), () => world.pairs, () => world.begun, () => world.ended, () => world.dtype])
+    assert.throws(use, { name: "Error", message: "this World has been freed" });
+  for (const use of [() => detector.findPairs(crowd(1)), () => detector.stats])
+    assert.throws(use, { name: "Error", message: "this Detector has been freed" });
 });
 
 test("out of memory in a search, which works afterwards", () => {

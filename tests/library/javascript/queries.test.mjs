@@ -86,6 +86,6 @@ test("fewer boxes than asked for", () => {
   const world = new boxstream.World({ dtype: "float64" });
   world.create(Float64Array.of(0, 0, 0, 1, 1, 1, 5, 5, 5, 6, 6, 6, NaN, NaN, NaN, NaN, NaN, NaN));
   assert.deepEqual([...world.queryNearest(Float64Array.of(7, 7, 7), 4)], [2, 1, 0, 0]);
-  assert.equal(world.queryNearest(new Float64Array(0), 4).length, 0);
+  for (const count of [4, 2 ** 31 + 5]) assert.equal(world.queryNearest(new Float64Array(0), count).length, 0);
   assert.equal(world.queryNearest(new Float64Array(6), 0).length, 0);
 });

@@ -97,6 +97,17 @@ test("layouts are told once", () => {
   assert.match(warnings(() => findPairs(mixed.map(() => NaN)))[0], /100 of 100 boxes are invalid.*many have a NaN/);
 });
 
+test("layouts of arrays of other classes are told", () => {
+  class Own extends Float64Array {
+    constructor() {
+      super(18);
+    }
+  }
+  const sizes = new Own();
+  for (let i = 0; i < 18; i += 6) sizes.set([3, 4, 5, 1, 7, 2], i);
+  assert.match(warnings(() => findPairs(sizes))[0], /3 of 3 boxes are invalid.*maxima seem to be sizes/);
+});
+
 test("a World warns of the same", () => {
   const flat = Float32Array.from(Array.from({ length: 300 }, (_, i) => [i, 0, i + 1, 1]).flat());
   const [text, ...more] = warnings(() => [new World().create(flat), new World().create(flat), new World().create(flat, { invalid: "skip" })]);

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What people have instead of float arrays in C order, and what they do with the result."""
+import _thread
 import multiprocessing
 import pickle
 import signal
+import sys
 import time
 import warnings
 
@@ -200,6 +202,26 @@ def test_likely_layouts_are_named(seed, dimensions):
         scope = {"boxes": wrong.copy()}
         exec(f"boxes{code}" if "=" in code else f"boxes = boxes{code}", scope)
         assert np.allclose(scope["boxes"], boxes)
+
+
+@pytest.mark.parametrize("dtype, scale", [(np.float32, 3e30), (np.float64, 2e149), (np.int64, 2**60)])
+def test_layouts_of_large_numbers_are_named(dtype, scale):
+    low = np.random.default_rng(5).uniform(-3, 3, (40, 3))
+    sizes = (np.hstack([low, np.full((40, 3), 0.25)]) * scale).astype(dtype)
+    with np.errstate(all="raise"), pytest.warns(boxstream.InvalidBoxesWarning, match="maxima seem to be sizes: boxes"):
+        boxstream.find_pairs(sizes)
+
+
+def test_a_thread_without_frames_of_python_is_warned(monkeypatch):
+    raised, detector = [], boxstream.Detector()
+    monkeypatch.setattr(sys, "unraisablehook", raised.append)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        _thread.start_new_thread(detector.find_pairs, (np.full((7, 6), np.nan),))
+        end = time.monotonic() + 10
+        while not caught and not raised and time.monotonic() < end:
+            time.sleep(0.001)
+    assert raised == [] and [each.category for each in caught] == [boxstream.InvalidBoxesWarning]
 
 
 def test_a_few_invalid_boxes_are_no_warning():

@@ -61,6 +61,23 @@ def test_copies_can_be_forbidden(given, text):
     assert len(boxstream.find_pairs(given)) == count * (count - 1) // 2
 
 
+class Own(np.ndarray):
+    """A class of the caller's."""
+
+
+@pytest.mark.parametrize("given", [
+    lambda path: np.memmap(path / "boxes", np.float32, "w+", shape=(3, 6)),
+    lambda path: np.zeros((3, 2, 3)).view(Own),
+    lambda path: np.ma.masked_array(np.zeros((3, 6), np.int32)),
+])
+def test_arrays_of_other_classes_need_no_copy(given, tmp_path):
+    assert len(boxstream.find_pairs(given(tmp_path), copy=False)) == 3
+
+
+def test_none_need_no_copy():
+    assert boxstream.find_pairs(np.zeros(0, np.int64), copy=False).shape == (0, 2)
+
+
 @pytest.mark.parametrize("call, error, text", [
     (lambda: boxstream.find_pairs(BOXES, BOXES[:, :3].copy()), ValueError, r"other: expected .*got float32 of shape"),
     (lambda: boxstream.find_pairs(BOXES, groups=np.zeros(4)), TypeError,
@@ -177,6 +194,14 @@ def test_invalid_boxes_can_be_an_error():
     with pytest.raises(ValueError, match=r"other\[1\]"):
         boxstream.find_pairs(boxes[:1], boxes, invalid="raise")
     assert boxstream.find_pairs(boxes[[0, 3]], invalid="raise").tolist() == [[0, 1]]
+
+
+def test_an_error_in_a_conversion_leaves_numpys_error_state():
+    before = np.geterr()
+    endless = np.broadcast_to(0.25, (2**43, 6))  # of which a copy has 192 TiB
+    with pytest.raises(MemoryError, match="192. TiB"):
+        boxstream.World("float32").create(endless)
+    assert np.geterr() == before
 
 
 @pytest.mark.parametrize("equal", [np.dtype("=f4"), np.dtype(np.float32, metadata={"unit": "m"})])

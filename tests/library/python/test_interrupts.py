@@ -42,6 +42,17 @@ def interrupted(call):
     return None
 
 
+def when_free(call):
+    """What `call` returns as soon as its object is not in use."""
+    for _ in range(1000):
+        try:
+            return call()
+        except RuntimeError as error:
+            assert "in use" in str(error)
+            time.sleep(0.02)
+    raise AssertionError("it stays in use")
+
+
 def calls(boxes):
     world = boxstream.World()
     world.create(boxes)
@@ -80,14 +91,47 @@ def test_what_was_left_ends_and_serves_again(apart):
     """An interrupted search ends later, on its own thread. Its detector is in use until then."""
     detector = boxstream.Detector()
     assert interrupted(lambda: detector.find_neighbours(apart)) is not None
-    for _ in range(1000):
-        try:
-            pairs = detector.find_pairs(apart[:10])
-            break
-        except RuntimeError as error:
-            assert "in use" in str(error)
-            time.sleep(0.02)
-    assert len(pairs) == 0 and detector.stats.boxes == 10
+    assert len(when_free(lambda: detector.find_pairs(apart[:10]))) == 0 and detector.stats.boxes == 10
+
+
+def crowded(count):
+    """A World of boxes in one place, before its first update."""
+    world = boxstream.World()
+    world.create(np.zeros((count, 6), np.float32))
+    return world
+
+
+def test_few_boxes_with_many_pairs_are_left_while_they_go_on():
+    crowd, detector, world = np.zeros((12_000, 6), np.float32), boxstream.Detector(), crowded(5500)
+    for call, use in [(lambda: detector.find_neighbours(crowd[:8000]), lambda: detector.scratch_bytes),
+                      (lambda: detector.find_pairs_in_sets(crowd, [0, 12_000]), lambda: detector.scratch_bytes),
+                      (world.update, lambda: len(world))]:
+        assert interrupted(call) is not None
+        with pytest.raises(RuntimeError, match="in use"):
+            use()
+        when_free(use)
+
+
+def handled_during(call):
+    """How many signals of a timer Python handles until the call has returned, and what it returns."""
+    rung = []
+    old = signal.signal(signal.SIGALRM, lambda *_: rung.append(time.monotonic()))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)
+        result = call()
+        return len(rung), result
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+
+
+def test_signals_are_handled_while_a_world_is_saved_and_loaded():
+    world = crowded(3000)
+    world.update()
+    count, saved = handled_during(world.save)  # 144 MB, of which each byte is in a sum
+    assert count >= 2
+    count, loaded = handled_during(lambda: boxstream.World.load(saved))
+    assert count >= 2 and len(loaded) == 3000
 
 
 def test_what_is_thrown_apart_passes_through(apart):
@@ -147,10 +191,4 @@ def test_a_child_after_a_search_that_was_left(apart):
         finally:
             os._exit(10)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
-    for _ in range(1000):
-        try:
-            assert len(detector.find_pairs(apart[:10])) == 0
-            return
-        except RuntimeError:
-            time.sleep(0.02)
-    raise AssertionError("it stays in use")
+    assert len(when_free(lambda: detector.find_pairs(apart[:10]))) == 0

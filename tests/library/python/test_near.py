@@ -43,7 +43,7 @@ def test_points_are_balls_of_radius_zero(dtype):
     assert as_set(boxstream.find_near_pairs(points, 0.1)) == expected
     assert as_set(near(balls, 0.1)) == expected
     assert as_set(boxstream.Detector().find_near_pairs(points, 0.06, radii=0.02)) == expected_pairs(
-        np.hstack([points, np.full((300, 1), 0.02, dtype)]), 0.06)
+        np.hstack([points, np.full((300, 1), 0.02)]), 0.06)
 
 
 def test_stream():
@@ -70,6 +70,12 @@ def test_distance_is_not_rounded_to_floats():
     balls = np.array([[0, 0, 0, 0], [np.float32(0.1), 0, 0, 0]], np.float32)
     assert len(near(balls, 0.1)) == 0  # np.float32(0.1) is above it
     assert len(near(balls, float(np.float32(0.1)))) == 1
+
+
+def test_one_radius_is_not_rounded_to_floats():
+    points = np.array([[0, 0, 0], [0, np.float32(0.3), 0]], np.float32)
+    assert len(boxstream.find_near_pairs(points, 0, radii=0.15)) == 0  # np.float32(0.3) is above 2 * 0.15
+    assert len(boxstream.find_near_pairs(points, 0, radii=np.float32(0.15))) == 1  # and is twice this
 
 
 def test_invalid_balls_can_be_an_error():

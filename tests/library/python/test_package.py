@@ -91,6 +91,29 @@ def test_the_extension_shows_nothing_but_its_entry():
     assert [line.split()[-1] for line in listing.stdout.splitlines()] == ["PyInit__core"]
 
 
+LOADING = """
+import array, mmap
+import numpy as np
+import boxstream
+saved = boxstream.World().save()
+boxstream.World.load(bytearray(saved))
+boxstream.World.load(memoryview(saved))
+boxstream.World.load(mmap.mmap(-1, 9))
+boxstream.BoxIndex.load(array.array("B", saved))
+boxstream.BoxIndex.load(np.frombuffer(saved, np.uint8))
+"""
+
+
 def test_stubs_are_sound(tmp_path):
+    program = tmp_path / "loading.py"
+    program.write_text(LOADING, encoding="utf-8")
     mypy = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path)]
-    subprocess.run([*mypy, str(FOLDER / "__init__.pyi")], check=True)
+    subprocess.run([*mypy, str(FOLDER / "__init__.pyi"), str(program)], check=True)
+
+
+def test_stats_are_shown_with_each_count():
+    detector = boxstream.Detector()
+    detector.find_pairs([[0, 0, 0, 2, 2, 2], [1, 1, 1, 3, 3, 3]])
+    shown = re.findall(r"(\w+)=(\d+)", repr(detector.stats))
+    assert {name: int(value) for name, value in shown} == {name: getattr(detector.stats, name)
+                                                           for name in public(boxstream.Stats)}

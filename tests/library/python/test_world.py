@@ -226,6 +226,18 @@ def test_a_ray_of_negative_length_meets_nothing(length):
         assert index.cast_rays(origin, direction, zero)[0].tolist() == [0]
 
 
+def test_a_length_is_not_shortened():
+    """The float nearest to 2.3 is below it."""
+    face = np.nextafter(np.float32(2.3), np.float32(3))
+    box = np.array([[face, -1, -1, 4, 1, 1]], np.float32)
+    world, index = boxstream.World(), boxstream.BoxIndex(box)
+    ids = world.create(box)
+    origin, direction = np.zeros((1, 3), np.float32), np.array([[1, 0, 0]], np.float32)
+    for asked, found in (world, ids[0]), (index, 0):
+        assert [each.tolist() for each in asked.cast_rays(origin, direction, 2.3)] == [[found], [face]]
+        assert asked.query_rays(origin, direction, float(np.float32(2.3)))[1].tolist() == []
+
+
 def test_nearest(filled):
     world, boxes, ids = filled
     points = (2 * np.random.default_rng(6).random((40, 3)) - 0.5).astype(world.dtype)

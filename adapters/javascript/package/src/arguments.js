@@ -85,9 +85,10 @@ export function requireAsMany(given, name, count, what) {
 }
 
 export function requireOneOf(value, name, choices) {
-  if (!choices.includes(value)) {
-    throw new RangeError(`${name}: expected ${choices.map((choice) => `"${choice}"`).join(" or ")}, got ${JSON.stringify(value)}`);
-  }
+  if (choices.includes(value)) return;
+  const expected = `${name}: expected ${choices.map((choice) => `"${choice}"`).join(" or ")}`;
+  if (typeof value !== "string") throw new TypeError(`${expected}, got ${typeOf(value)}`);
+  throw new RangeError(`${expected}, got "${value}"`);
 }
 
 export function requireInteger(value, name, least) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-import { methodOf, optionalArray, requireBoolean, requireBoxes, requireInteger, requireOptions, typeOf } from "./arguments.js";
+import { boxTypes, methodOf, optionalArray, requireBoolean, requireBoxes, requireInteger, requireOptions, typeOf } from "./arguments.js";
 import { filtersOf, requireTwo } from "./filters.js";
 import { call, functions, lend, number, part } from "./module.js";
 import { Resource } from "./resource.js";
@@ -9,9 +9,9 @@ const scalars = { float32: 0, float64: 1, int32: 2 };
 const names = ["other", "groups", "masks", "ids", "idsA", "idsB", "closed", "tolerance", "dimensions", "invalid"];
 
 /** Boxes of fewer dimensions, from 0 to 1 in the others: closed or not, all pairs are decided by what was given. */
-function inSpace(boxes, dimensions) {
+function inSpace(boxes, dimensions, dtype) {
   if (dimensions === 3) return boxes;
-  const all = new boxes.constructor((boxes.length / dimensions) * 3);
+  const all = new boxTypes[dtype]((boxes.length / dimensions) * 3);
   for (let from = 0, to = 0; from < boxes.length; to += 6) {
     for (let d = 0; d < dimensions; ++d) all[to + d] = boxes[from++];
     for (let d = 0; d < 3; ++d) all[to + 3 + d] = d < dimensions ? boxes[from++] : 1;
@@ -33,7 +33,7 @@ function read(boxes, options) {
   requireBoolean(closed, "closed");
   const dtype = requireBoxes(boxes, "boxes", dimensions);
   const set = (given, name, filters, own, ownName) => {
-    const all = inSpace(given, dimensions);
+    const all = inSpace(given, dimensions, dtype);
     checkValidity(all, name, invalid);
     const count = all.length / 6;
     return { boxes: all, count, filters: filters(count), ids: optionalArray(own, ownName, "Uint32Array", count) };
@@ -62,6 +62,7 @@ export class Detector extends Resource {
   }
 
   get stats() {
+    Resource.handleOf(this);
     return this.#stats;
   }
 

@@ -76,10 +76,11 @@ export function lend(arrays, use) {
   }
 }
 
+/** Byte by byte: constructors of classes that extend typed arrays take what they like. */
 function copyOf(array) {
   const copy = functions.allocate(array.byteLength) >>> 0;
   if (copy === 0) throw new RangeError("boxstream: out of memory");
-  new array.constructor(memory.buffer, copy, array.length).set(array);
+  new Uint8Array(memory.buffer, copy).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
   return copy;
 }
 

@@ -19,7 +19,7 @@ export function checkValidity(boxes, name, invalid = "warn") {
 /** The share of rows of `columns` numbers for which `holds(row)`. */
 function share(boxes, columns, holds) {
   let count = 0;
-  for (let i = 0; i + columns <= boxes.length; i += columns) if (holds(boxes.subarray(i, i + columns))) ++count;
+  for (let i = 0; i + columns <= boxes.length; i += columns) if (holds(Array.prototype.slice.call(boxes, i, i + columns))) ++count;
   return count / Math.floor(boxes.length / columns);
 }
 

@@ -23,6 +23,7 @@ export class World extends Resource {
   }
 
   get dtype() {
+    Resource.handleOf(this);
     return this.#dtype;
   }
 
@@ -150,6 +151,7 @@ export class World extends Resource {
   }
 
   #pairs(name) {
+    Resource.handleOf(this);
     return (this.#held[name] ??= this.#ask(name, [], () => ids(0)));
   }
 
