@@ -23,6 +23,7 @@ void start_impulses(SceneInstance& instance) {
     instance.before_step(impulses, [&instance, field, dynamic, count, random, next = std::size_t{0}](double) mutable {
       for (std::size_t k = 0; k < count; ++k, next = (next + 1) % dynamic.size()) {
         btRigidBody& body = *instance.bodies[dynamic[next]];
+        if (body.isStaticOrKinematicObject() || !body.isInWorld()) continue;  // frozen, or away
         instance.acting_on(body);
         body.setLinearVelocity(vector(random.in_ball(field.speed)));
         body.activate();

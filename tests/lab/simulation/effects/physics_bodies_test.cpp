@@ -348,5 +348,30 @@ TEST(RainAndLeaving, WhatWasFrozenFallsAgain) {
   EXPECT_GT(simulation.left(), 2 * bodies) << "each leaves once and is never seen again";
 }
 
+/// One ball freezes just below the bounds, and another of its radius of 0.4 m lands on it.
+TEST(OutOfBounds, WhatIsFrozenBearsWhatFallsOnIt) {
+  for (const auto extent : {effects::Extent::only_called, effects::Extent::all}) {
+    Scene scene = exhibit("out_of_bounds");
+    scene.time.dt = 1.0 / 240;
+    scene.world.gravity = {0, -9.81, 0};
+    scene.world.bounds = {{-10, 0, -10}, {10, 20, 10}};
+    scene.world.on_leave = scenes::OnLeave::freeze;
+    std::get<scenes::SphereShape>(scene.shapes[0].value).radius = 0.4;
+    scene.bodies[0].traits.mass = 2;
+    scene.bodies[0].velocity = {0, 0, 0};
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[0].position = {0, 0.7, 0};
+    scene.bodies[1].position = {0, 3, 0};
+    Simulation simulation(scene, "boxstream", {}, extent);
+    while (simulation.left() == 0) simulation.advance();
+    const btVector3 frozen = place(simulation);
+    run(simulation, 2);
+    EXPECT_EQ(place(simulation), frozen);
+    EXPECT_EQ(body(simulation).getLinearVelocity(), btVector3(0, 0, 0));
+    EXPECT_NEAR(place(simulation, 1).y(), frozen.y() + 0.8, 0.002);
+    EXPECT_EQ(simulation.outside(), 1u) << "it is out of bounds still";
+  }
+}
+
 }  // namespace
 }  // namespace boxstream::effects_test

@@ -166,6 +166,21 @@ TEST(Kicks, GiveEachBodyASpeedWithinTheBall) {
   EXPECT_GT(most, 2.9);
 }
 
+TEST(Kicks, LeaveWhatIsFrozenAlone) {
+  Scene scene = ball();
+  scene.world.bounds = {{-0.02, 0.48, -0.02}, {0.02, 0.52, 0.02}};
+  scene.world.on_leave = scenes::OnLeave::freeze;
+  scene.fields.push_back(scenes::ImpulsesField{1, 3});
+  Simulation simulation(scene, "boxstream");
+  while (simulation.left() == 0) simulation.advance();
+  const btVector3 frozen = body(simulation).getWorldTransform().getOrigin();
+  for (int i = 0; i < 20; ++i) {
+    simulation.advance();
+    EXPECT_EQ(body(simulation).getLinearVelocity(), btVector3(0, 0, 0));
+    EXPECT_EQ(body(simulation).getWorldTransform().getOrigin(), frozen);
+  }
+}
+
 TEST(Gyroscopic, MakesAPlankTumbleThatWouldGoOnSpinning) {
   Scene scene = exhibit("gyroscopic");
   scene.time.dt = 1.0 / 240;
