@@ -98,6 +98,39 @@ TEST(Drag, OfSpinIsExponentialAndNeverTurnsItRound) {
   }
 }
 
+TEST(Drag, OfSeveralFieldsBringsAFeatherToRestAtOnce) {
+  Scene scene = ball();
+  scene.time.dt = 1.0 / 120;
+  std::get<scenes::SphereShape>(scene.shapes[0].value).radius = 0.15;
+  scene.bodies[0].traits.mass = 0.02;
+  scene.bodies[0].velocity = {0, 0, 2};
+  scene.bodies[0].spin = {3, 0, 0};
+  scene.fields = {scenes::BuoyancyField{50, 1000, 300}, scenes::DragField{8, 0, 8}, scenes::DragField{0, 0, 8, 800},
+                  scenes::VortexField{{0, 0, 0}, 4, 4, 0, 0, 500}, scenes::WindField{{0, 0, 0}, 900, 0.5}};
+  Simulation simulation(scene, "boxstream");
+  for (int i = 0; i < 5; ++i) {
+    simulation.advance();
+    EXPECT_NEAR(body(simulation).getLinearVelocity().length(), 0, 1e-5);
+    EXPECT_NEAR(body(simulation).getAngularVelocity().length(), 0, 1e-5);
+  }
+}
+
+TEST(Buoyancy, LiftsAgainstAnyDrag) {
+  Scene scene = ball();
+  scene.time.dt = 1.0 / 120;
+  scene.world.gravity = {0, -9.81, 0};
+  scene.shapes[0].value = scenes::BoxShape{{0.5, 0.4, 0.5}};
+  scene.bodies[0].traits.mass.reset();
+  scene.bodies[0].traits.density = 600;
+  const double afloat = 2 + 0.4 - 0.8 * 0.6;
+  scene.bodies[0].position = {0, afloat, 0};
+  // Two fluids, which together have a density of 1000, and drag that takes all velocity in a step.
+  scene.fields = {scenes::BuoyancyField{2, 300, 1e4}, scenes::BuoyancyField{2, 700, 1e4}, scenes::DragField{1e7, 0, 0}};
+  Simulation simulation(scene, "boxstream");
+  run(simulation, 3);
+  EXPECT_NEAR(body(simulation).getWorldTransform().getOrigin().y(), afloat, 1e-3);
+}
+
 TEST(Buoyancy, FloatsABoxAtTheRatioOfDensities) {
   for (const double ratio : {0.25, 0.6, 0.9}) {
     Scene scene = ball();
