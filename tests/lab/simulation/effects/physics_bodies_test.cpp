@@ -309,6 +309,29 @@ TEST(SpinningFriction, SlowsABallDownThatSpinsOnTheSpotAndRollsNoneDown) {
   EXPECT_LT(left(0.1), 9);
 }
 
+/// A car at rest on its wheels, whose springs are deflected by g / (wheels * stiffness).
+Scene car(double mass, double stiffness) {
+  Scene scene = exhibit("vehicles");
+  scenes::Vehicle& vehicle = scene.vehicles[0];
+  vehicle.engine = 0;
+  vehicle.stiffness = stiffness;
+  scenes::Body& chassis = scene.bodies[vehicle.chassis];
+  chassis.traits.mass = mass;
+  const scenes::Wheel& wheel = vehicle.wheels[0];
+  chassis.position[1] = wheel.radius + vehicle.suspension - wheel.at[1] - 9.81 / (4 * stiffness);
+  return scene;
+}
+
+TEST(Vehicles, SinkByTheirStiffnessWhateverTheyWeigh) {
+  for (const double mass : {600.0, 9000.0, 60'000.0}) {
+    Scene scene = car(mass, 30);
+    const double height = scene.bodies[scene.vehicles[0].chassis].position[1];
+    Simulation simulation(scene, "boxstream");
+    run(simulation, 2);
+    EXPECT_NEAR(place(simulation, scene.vehicles[0].chassis).y(), height, 1e-3) << mass << " kg";
+  }
+}
+
 TEST(RainAndLeaving, AreTheSameOnEveryBroadphase) {
   Scene scene = exhibit("respawn");
   scene.world.on_leave = scenes::OnLeave::remove;
