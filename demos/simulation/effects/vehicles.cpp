@@ -38,7 +38,8 @@ void add(SceneInstance& instance, const Vehicle& description) {
     const int index = car.vehicle->getNumWheels() - 1;
     if (wheel.driven) car.vehicle->applyEngineForce(real(description.engine), index);
     if (wheel.steered) car.vehicle->setSteeringValue(real(description.steer), index);
-    car.vehicle->setBrake(real(description.brake), index);
+    // Bullet takes it for an impulse in each of its own steps, which are substeps here.
+    car.vehicle->setBrake(real(description.brake / instance.scene.time.substeps), index);
   }
   // Wheels are no bodies: nothing wakes a chassis that sleeps.
   chassis.setActivationState(DISABLE_DEACTIVATION);

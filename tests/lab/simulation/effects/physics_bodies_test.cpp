@@ -332,6 +332,20 @@ TEST(Vehicles, SinkByTheirStiffnessWhateverTheyWeigh) {
   }
 }
 
+TEST(Vehicles, BrakeAlikeInAnyNumberOfSubsteps) {
+  for (const int substeps : {1, 5}) {
+    Scene scene = car(1200, 20);
+    scene.time.substeps = substeps;
+    scenes::Vehicle& vehicle = scene.vehicles[0];
+    vehicle.brake = 10;
+    scene.bodies[vehicle.chassis].velocity = {0, 0, 3};
+    Simulation simulation(scene, "boxstream");
+    for (int i = 0; i < 30; ++i) simulation.advance();
+    // Four wheels take 10 N s each in a step.
+    EXPECT_NEAR(body(simulation, vehicle.chassis).getLinearVelocity().z(), 3 - 30 * 4 * 10 / 1200.0, 1e-3) << substeps;
+  }
+}
+
 TEST(RainAndLeaving, AreTheSameOnEveryBroadphase) {
   Scene scene = exhibit("respawn");
   scene.world.on_leave = scenes::OnLeave::remove;
