@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <BulletSoftBody/btSoftBody.h>
 #include <btBulletDynamicsCommon.h>
 
 #include "gallery.hpp"
@@ -25,6 +26,15 @@ Scene ball() {
 
 const btRigidBody& body(const Simulation& simulation, std::size_t index = 0) {
   return *btRigidBody::upcast(simulation.objects()[index]);
+}
+
+/// Of a character, or of the nodes of a soft body.
+btVector3 middle(const btCollisionObject& object) {
+  const btSoftBody* const soft = btSoftBody::upcast(&object);
+  if (soft == nullptr) return object.getWorldTransform().getOrigin();
+  btVector3 sum(0, 0, 0);
+  for (int i = 0; i < soft->m_nodes.size(); ++i) sum += soft->m_nodes[i].m_x;
+  return sum / btScalar(soft->m_nodes.size());
 }
 
 void run(Simulation& simulation, double seconds) {
@@ -172,6 +182,28 @@ TEST(TumblingGravity, TurnsAndKeepsItsSize) {
     sum += pull;
   }
   EXPECT_LT(sum.length() / 20'000, 0.5 * 9.81);
+}
+
+/// What starts at rest has fallen by g t (t + dt) / 2 after whole steps of `dt` seconds.
+TEST(TumblingGravity, PullsSoftBodiesAndCharacters) {
+  for (const char* const name : {"soft_bodies", "characters"}) {
+    Scene scene = exhibit(name);
+    scene.time.dt = 1.0 / 240;
+    scene.world.tumbling = scenes::TumblingGravity{4, 0};  // it stays along +x
+    scene.bodies.clear();
+    for (scenes::SoftBody& soft : scene.soft_bodies) {
+      std::get<scenes::ClothSoft>(soft.value).pinned = 0;
+      soft.damping = 0;
+    }
+    for (scenes::Character& character : scene.characters) character.speed = 0;
+    Simulation simulation(scene, "boxstream");
+    const btVector3 start = middle(*simulation.objects()[0]);
+    run(simulation, 0.5);
+    const btVector3 way = middle(*simulation.objects()[0]) - start;
+    EXPECT_NEAR(way.x(), 4 * 0.5 * (0.5 + scene.time.dt) / 2, 0.002) << name;
+    EXPECT_NEAR(way.y(), 0, 1e-3) << name;
+    EXPECT_NEAR(way.z(), 0, 1e-3) << name;
+  }
 }
 
 TEST(Swirl, CarriesABallRoundAtTheSpeedOfTheAir) {
