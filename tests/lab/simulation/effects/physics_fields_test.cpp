@@ -231,6 +231,20 @@ TEST(Kicks, GiveEachBodyASpeedWithinTheBall) {
   EXPECT_GT(most, 2.9);
 }
 
+TEST(Kicks, AreGivenToTheShareRoundedUp) {
+  for (const auto& [share, count] : {std::pair{0.14, 7}, {0.15, 8}, {0.28, 14}, {1e-9, 1}, {1.0, 50}}) {
+    Scene scene = ball();
+    scene.bodies.resize(50, scene.bodies[0]);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].position[0] = 3 * static_cast<double>(i);
+    scene.fields.push_back(scenes::ImpulsesField{share, 3});
+    Simulation simulation(scene, "boxstream");
+    simulation.advance();
+    int moving = 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) moving += !body(simulation, i).getLinearVelocity().isZero();
+    EXPECT_EQ(moving, count) << share;
+  }
+}
+
 TEST(Kicks, LeaveWhatIsFrozenAlone) {
   Scene scene = ball();
   scene.world.bounds = {{-0.02, 0.48, -0.02}, {0.02, 0.52, 0.02}};
