@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/scene_model/expand.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -50,9 +51,13 @@ double size_of_bodies(const scenes::Simulation& simulation) {
 }
 
 Frame frame_of(const scenes::Simulation& simulation) {
+  // By what the scene says, so that all frames have the same bodies: one that is frozen is static to Bullet.
+  const std::vector<scenes::Body>& bodies = simulation.expanded().bodies;
   Frame frame;
   for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
-    if (simulation.objects()[i]->isStaticOrKinematicObject()) continue;
+    if (i < bodies.size() ? bodies[i].traits.type != scenes::BodyType::dynamic
+                          : simulation.objects()[i]->isStaticOrKinematicObject())
+      continue;
     const btTransform place = simulation.pose(i);
     frame.positions.push_back(place.getOrigin());
     frame.rotations.push_back(place.getRotation());

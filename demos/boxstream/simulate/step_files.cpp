@@ -85,10 +85,11 @@ void StatesFile::write(const scenes::Simulation& simulation) {
   const std::uint64_t step = simulation.steps_done();
   std::string text;
   const auto to = std::back_inserter(text);
-  // Bodies come first among the objects.
-  for (std::size_t i = 0; i < simulation.expanded().bodies.size(); ++i) {
+  // Bodies come first among the objects. One that is frozen is static to Bullet, and keeps its lines.
+  const std::vector<scenes::Body>& bodies = simulation.expanded().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].traits.type == scenes::BodyType::fixed) continue;
     const btRigidBody& body = *btRigidBody::upcast(simulation.objects()[i]);
-    if (body.isStaticObject()) continue;
     const btTransform pose = simulation.pose(i);
     const btVector3 &place = pose.getOrigin(), &v = body.getLinearVelocity(), &spin = body.getAngularVelocity();
     const btQuaternion turn = pose.getRotation();

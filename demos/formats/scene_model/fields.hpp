@@ -20,7 +20,12 @@ struct VortexField {
   double updraft = 0;  // on the axis, half way up
   double rate = 0;     // 1/s: how fast bodies take on the speed of the air
 
-  void scale(const Scaling& by) { radius *= by.side, height *= by.side; }
+  void scale(const Scaling& by) {
+    radius *= by.side, height *= by.side;
+    if (!by.self_similar) return;
+    by.room(centre);
+    speed *= by.side, updraft *= by.side;
+  }
 };
 
 /// Air of one velocity; pushes dynamic bodies with density / 2 * area * |v|^2 * coefficient, where v is the velocity
@@ -31,7 +36,12 @@ struct WindField {
   double density = 1.2;      // kg/m^3
   double coefficient = 0.5;  // of drag
 
-  void scale(const Scaling&) {}
+  /// Its force goes by the square of speeds: thinner air takes the same time.
+  void scale(const Scaling& by) {
+    if (!by.self_similar) return;
+    by.room(velocity);
+    density /= by.side;
+  }
 };
 
 /// Slows all dynamic bodies down: force = -(linear + quadratic * |v|) * v, torque = -angular * spin, whatever their
@@ -44,7 +54,10 @@ struct DragField {
   double density = 0;        // kg/m^3
   double coefficient = 0.5;  // of drag, of what has a density
 
-  void scale(const Scaling&) {}
+  /// As of wind.
+  void scale(const Scaling& by) {
+    if (by.self_similar) quadratic /= by.side, density /= by.side;
+  }
 };
 
 /// Fluid below a level: lifts dynamic bodies by the weight of what they displace, at its centre, and drags them in
@@ -55,7 +68,9 @@ struct BuoyancyField {
   double density = 1000;  // kg/m^3
   double drag = 1;        // 1/s, of a body that is under
 
-  void scale(const Scaling&) {}
+  void scale(const Scaling& by) {
+    if (by.self_similar) level *= by.side;
+  }
 };
 
 /// Before each step a share of the dynamic bodies, the next ones in turn, get a new velocity, uniform in a ball

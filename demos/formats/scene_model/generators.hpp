@@ -53,6 +53,7 @@ struct GridGenerator {
     if (!scales) return;
     Scaling::columns(columns, is_ground() ? by.face : by.side);
     count = Scaling::times(count, by.factor);
+    if (by.self_similar) vortex *= by.side, speed *= by.side;
   }
   void generate(Random& random, Expanded& out) const;
 
@@ -197,6 +198,9 @@ struct RespawnGenerator {
     count = Scaling::times(count, by.factor);
     at_once = Scaling::times(at_once, by.factor);
     by.room(size);
+    if (!by.self_similar) return;
+    by.room(origin);
+    by.room(velocity);
   }
   void generate(Random& random, Expanded& out) const;
 };

@@ -170,6 +170,12 @@ class Bouncer {
     return body.getLinearVelocity() + acceleration(body) * dt_ + body.getAngularVelocity().cross(arm);
   }
 
+  /// How fast its surface moves in addition, if it is a conveyor: of that the body itself knows nothing.
+  btVector3 surface(const btRigidBody& body) const {
+    const btVector3* const found = surface_velocity(instance_.world.solver().conveyors(), body);
+    return found == nullptr ? btVector3(0, 0, 0) : *found;
+  }
+
   btVector3 displacement(const btRigidBody& body, const btVector3& arm) const {
     const auto found = displaced_.find(const_cast<btRigidBody*>(&body));
     return found == displaced_.end() ? btVector3(0, 0, 0) : found->second.place + found->second.turn.cross(arm);
@@ -324,11 +330,14 @@ class Bouncer {
 
   void rub(const Meeting& m, const Bounce& bounce, btScalar along) {
     if (m.friction > 0) {
-      const btVector3 all = velocity(*m.a, bounce.arm_a) - velocity(*m.b, bounce.arm_b);
+      const btVector3 belts = surface(*m.a) - surface(*m.b);
+      const btVector3 all = velocity(*m.a, bounce.arm_a) - velocity(*m.b, bounce.arm_b) + belts;
       const btVector3 across = all - bounce.normal * all.dot(bounce.normal);
       if (const btScalar sliding = across.length(); sliding > SIMD_EPSILON) {
         const btVector3 direction = across / sliding;
-        push(m, bounce, direction * -std::min(m.friction * along, sliding / give(m, bounce, direction)));
+        const btVector3 impulse = direction * -std::min(m.friction * along, sliding / give(m, bounce, direction));
+        push(m, bounce, impulse);
+        instance_.world.solver().add_work_of_surfaces(-double{impulse.dot(belts)});
       }
     }
     // The solver has nothing to push out of each other here: the overlap goes with the displacement.

@@ -13,19 +13,30 @@ using namespace scenes;
 
 using Displacements = std::vector<std::shared_ptr<const Displacement>>;
 
-void apply(const BuoyancyField& field, const SceneInstance& instance, const Displacements& bodies, double dt) {
+/// `share` of the body is under.
+void slow_down(btRigidBody& body, const BuoyancyField& field, double share, double dt) {
+  const btScalar rate = real(std::min(field.drag, 1 / dt) * share);
+  body.applyCentralForce(velocity_left(body, dt) * (-rate / body.getInvMass()));
+  body.applyTorque(body.getInvInertiaTensorWorld().inverse() * spin_left(body, dt) * -rate);
+}
+
+void apply(const std::vector<BuoyancyField>& fluids, const SceneInstance& instance, const Displacements& bodies,
+           double dt) {
   const btVector3 gravity = instance.world.world().getGravity();
   for_each_moving(instance, [&](std::size_t i, btRigidBody& body) {
-    const Volume under = bodies[i]->below(body.getWorldTransform(), field.level);
-    if (!(under.size > 0)) return;
-    const btVector3 lift = gravity * real(-field.density * under.size);
-    body.applyCentralForce(lift);
-    // At the middle of what is under.
-    body.applyTorque(vector(times(under.moment, 1 / under.size)).cross(lift));
-    if (field.drag == 0) return;
-    const btScalar rate = real(std::min(field.drag, 1 / dt) * under.size / bodies[i]->volume());
-    body.applyCentralForce(body.getLinearVelocity() * (-rate / body.getInvMass()));
-    body.applyTorque(body.getInvInertiaTensorWorld().inverse() * body.getAngularVelocity() * -rate);
+    btVector3 force(0, 0, 0), torque(0, 0, 0);
+    for (const BuoyancyField& fluid : fluids) {
+      const Volume under = bodies[i]->below(body.getWorldTransform(), fluid.level);
+      if (!(under.size > 0)) continue;
+      const btVector3 lift = gravity * real(-fluid.density * under.size);
+      force += lift;
+      // At the middle of what is under.
+      torque += vector(times(under.moment, 1 / under.size)).cross(lift);
+      if (fluid.drag > 0) slow_down(body, fluid, under.size / bodies[i]->volume(), dt);
+    }
+    // Last: no drag takes the velocity that a lift gives, for gravity has not acted yet.
+    body.applyCentralForce(force);
+    body.applyTorque(torque);
   });
 }
 
@@ -35,10 +46,11 @@ std::optional<Call> calls_for_buoyancy(const Subject& subject) {
 }
 
 void start_buoyancy(SceneInstance& instance) {
-  for_each_field<BuoyancyField>(instance, [&](const BuoyancyField& field) {
-    instance.before_substep(buoyancy, [&instance, field, bodies = for_each_shape<Displacement>(instance)](double dt) {
-      apply(field, instance, bodies, dt);
-    });
+  std::vector<BuoyancyField> fluids;
+  for_each_field<BuoyancyField>(instance, [&](const BuoyancyField& field) { fluids.push_back(field); });
+  if (fluids.empty()) return;
+  instance.before_substep(buoyancy, [&instance, fluids, bodies = for_each_shape<Displacement>(instance)](double dt) {
+    apply(fluids, instance, bodies, dt);
   });
 }
 

@@ -22,13 +22,13 @@ bool acts_alike(const DragField& field) {
 /// The same for all bodies.
 void apply(const DragField& field, const SceneInstance& instance, double dt) {
   for_each_moving(instance, [&](std::size_t, btRigidBody& body) {
-    const btVector3 v = body.getLinearVelocity();
+    const btVector3 v = velocity_left(body, dt);
     const double strength = field.linear + field.quadratic * v.length();
     body.applyCentralForce(v * -real(std::min(strength, most_strength(body, dt))));
     if (field.angular == 0) return;
     const btVector3& inverse = body.getInvInertiaDiagLocal();
     const double most = 1 / (double{inverse[inverse.maxAxis()]} * dt);
-    body.applyTorque(body.getAngularVelocity() * -real(std::min(field.angular, most)));
+    body.applyTorque(spin_left(body, dt) * -real(std::min(field.angular, most)));
   });
 }
 

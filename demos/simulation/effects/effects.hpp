@@ -3,7 +3,8 @@
 
 #include "simulation/effects/effect.hpp"
 
-/// Every effect, in the order in which they are built. Here they are registered, and nowhere else.
+/// Every effect, in the order in which they are built. Here they are registered, and nowhere else. Of what acts before
+/// substeps, buoyancy comes after what else slows bodies down: see field_kit.hpp.
 #define BOXSTREAM_EFFECTS                                                                                            \
   gravity, tumbling_gravity, contacts, friction, anisotropic_friction, rolling_friction, spinning_friction,          \
       friction_caching, restitution, split_impulse, damping, ccd, sleeping, forced_boxes, gyroscopic, kinematic,     \

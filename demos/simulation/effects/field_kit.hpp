@@ -8,6 +8,7 @@
 #include "simulation/effects/activity.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
+#include "simulation/engine/convert.hpp"
 
 // What effects of fields have in common: air and fluids are forces on each dynamic body before each substep.
 namespace boxstream::effects {
@@ -27,6 +28,15 @@ void for_each_moving(const SceneInstance& instance, Visit visit) {
 /// speed of the fluid at once.
 inline double most_strength(const btRigidBody& body, double dt) {
   return 1 / (double{body.getInvMass()} * dt);
+}
+
+/// What the fields so far leave of a body's velocity in a substep of `dt` seconds. Each field slows down what those
+/// before it have left: together they bring a light body to rest at most, and do not turn it round.
+inline btVector3 velocity_left(const btRigidBody& body, double dt) {
+  return body.getLinearVelocity() + body.getTotalForce() * (body.getInvMass() * scenes::real(dt));
+}
+inline btVector3 spin_left(const btRigidBody& body, double dt) {
+  return body.getAngularVelocity() + body.getInvInertiaTensorWorld() * body.getTotalTorque() * scenes::real(dt);
 }
 
 /// Each field of the scene that is a T.

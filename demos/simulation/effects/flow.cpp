@@ -21,7 +21,7 @@ void Flow::push(double dt) const {
   for_each_moving(instance_, [&](std::size_t i, btRigidBody& body) {
     const Windward& surface = *surfaces_[i];
     const btMatrix3x3& basis = body.getWorldTransform().getBasis();
-    const btVector3 flow = (velocity_ - body.getLinearVelocity()) * basis, spin = body.getAngularVelocity() * basis;
+    const btVector3 flow = (velocity_ - velocity_left(body, dt)) * basis, spin = spin_left(body, dt) * basis;
     Windward::Push push = surface.push(flow, spin);
     if (push.force.isZero() && push.torque.isZero()) return;
     // What is light takes on the velocity of the flow, and is not thrown beyond it: neither its middle nor its rim.

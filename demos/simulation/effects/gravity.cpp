@@ -48,7 +48,8 @@ void start_tumbling(SceneInstance& instance) {
   instance.before_substep(tumbling_gravity, [&instance, speed, strength, axis, pull](double dt) mutable {
     axis = axis.rotate(btVector3(0, 0, 1), real(speed * dt)).normalized();
     pull = pull.rotate(axis, real(speed * dt)).normalized();
-    instance.world.world().setGravity(pull * strength);
+    instance.world.set_gravity(pull * strength);
+    for (Walker& walker : instance.walkers) walker.controller().setGravity(pull * strength);
   });
 }
 

@@ -11,6 +11,11 @@ namespace {
 
 using namespace scenes;
 
+/// Rounded up, unless a whole number was missed by rounding alone: 0.07 times 100 is a little more than 7.
+std::size_t count_of(double share, std::size_t bodies) {
+  return static_cast<std::size_t>(std::ceil(share * static_cast<double>(bodies) * (1 - 1e-12)));
+}
+
 void start_impulses(SceneInstance& instance) {
   std::vector<std::size_t> dynamic;
   for (std::size_t i = 0; i < instance.bodies.size(); ++i)
@@ -18,11 +23,12 @@ void start_impulses(SceneInstance& instance) {
   if (dynamic.empty()) return;
   std::uint64_t stream = 0;
   for_each_field<ImpulsesField>(instance, [&](const ImpulsesField& field) {
-    const auto count = static_cast<std::size_t>(std::ceil(field.share * static_cast<double>(dynamic.size())));
+    const std::size_t count = count_of(field.share, dynamic.size());
     Random random(instance.scene.world.seed + 0x517cc1b727220a95u * ++stream);
     instance.before_step(impulses, [&instance, field, dynamic, count, random, next = std::size_t{0}](double) mutable {
       for (std::size_t k = 0; k < count; ++k, next = (next + 1) % dynamic.size()) {
         btRigidBody& body = *instance.bodies[dynamic[next]];
+        if (body.isStaticOrKinematicObject() || !body.isInWorld()) continue;  // frozen, or away
         instance.acting_on(body);
         body.setLinearVelocity(vector(random.in_ball(field.speed)));
         body.activate();

@@ -17,11 +17,13 @@ std::optional<Call> calls_for_out_of_bounds(const Subject& subject) {
                                                                      : "report"};
 }
 
-/// The body stays where it is, for others to run into.
+/// The body stays where it is, for others to run into. Without a mass Bullet takes it for a static one, which neither
+/// the solver nor an effect moves.
 void freeze(btRigidBody& body) {
   body.setLinearVelocity(btVector3(0, 0, 0));
   body.setAngularVelocity(btVector3(0, 0, 0));
-  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  body.setMassProps(0, btVector3(0, 0, 0));
+  body.updateInertiaTensor();
 }
 
 void start_out_of_bounds(SceneInstance& instance) {

@@ -4,6 +4,7 @@
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/scene_instance.hpp"
 #include "simulation/engine/convert.hpp"
+#include "simulation/engine/mass.hpp"
 
 namespace boxstream::effects {
 namespace {
@@ -32,7 +33,9 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   const Quat rotation = g.turned ? cloud.random.rotation() : Quat{0, 0, 0, 1};
   btRigidBody& body = *instance.bodies[index];
   // As if it had just been made: forces and contacts of its former life are gone with the pairs; nor is it frozen.
-  body.setCollisionFlags(body.getCollisionFlags() & ~btCollisionObject::CF_KINEMATIC_OBJECT);
+  const Body& description = instance.expanded.bodies[index];
+  const Mass mass = mass_of(description, instance.shapes.solid(description.traits.shape));
+  body.setMassProps(real(mass.mass), vector(mass.moments));
   body.clearForces();
   instance.put(index, transform(place, rotation));
   body.setInterpolationWorldTransform(body.getWorldTransform());

@@ -26,6 +26,8 @@ void add(SceneInstance& instance, const Vehicle& description) {
   btRaycastVehicle::btVehicleTuning tuning;
   tuning.m_suspensionStiffness = real(description.stiffness);
   tuning.m_frictionSlip = real(description.grip);
+  // Stiffness is for each kilogram, so heavy vehicles need more than Bullet's default of 6000 N.
+  tuning.m_maxSuspensionForce = BT_LARGE_FLOAT;
   car.raycaster = std::make_unique<btDefaultVehicleRaycaster>(&instance.world.world());
   car.vehicle = std::make_unique<btRaycastVehicle>(tuning, &chassis, car.raycaster.get());
   car.vehicle->setCoordinateSystem(0, 1, 2);  // x to the side, y up, z ahead
@@ -36,7 +38,8 @@ void add(SceneInstance& instance, const Vehicle& description) {
     const int index = car.vehicle->getNumWheels() - 1;
     if (wheel.driven) car.vehicle->applyEngineForce(real(description.engine), index);
     if (wheel.steered) car.vehicle->setSteeringValue(real(description.steer), index);
-    car.vehicle->setBrake(real(description.brake), index);
+    // Bullet takes it for an impulse in each of its own steps, which are substeps here.
+    car.vehicle->setBrake(real(description.brake / instance.scene.time.substeps), index);
   }
   // Wheels are no bodies: nothing wakes a chassis that sleeps.
   chassis.setActivationState(DISABLE_DEACTIVATION);

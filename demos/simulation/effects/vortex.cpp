@@ -26,7 +26,7 @@ void apply(const VortexField& vortex, const SceneInstance& instance, double dt) 
     const btScalar inwards = strength * (1 - u2) * half_turns * std::cos(half_turns * r.y());
     const btScalar up = strength * (2 - 4 * u2) * std::sin(half_turns * r.y());
     const btVector3 air(-turns * r.z() - inwards * r.x(), up, turns * r.x() - inwards * r.z());
-    body.applyCentralForce((air - body.getLinearVelocity()) * (rate / body.getInvMass()));
+    body.applyCentralForce((air - velocity_left(body, dt)) * (rate / body.getInvMass()));
   });
 }
 

@@ -41,11 +41,15 @@ BulletWorld::BulletWorld(const WorldRecipe& recipe, std::unique_ptr<btBroadphase
                                                                     dispatcher_.get(), broadphase_.get(),
                                                                     &solver_->bullet(), configuration_.get());
   }
-  world_->setGravity(recipe.gravity);
+  set_gravity(recipe.gravity);
   world_->getSolverInfo() = recipe.solver;
   world_->getDispatchInfo().m_useContinuous = recipe.continuous;
   world_->setForceUpdateAllAabbs(recipe.force_boxes);
-  if (soft_world_ != nullptr) soft_world_->getWorldInfo().m_gravity = recipe.gravity;
+}
+
+void BulletWorld::set_gravity(const btVector3& gravity) {
+  world_->setGravity(gravity);
+  if (soft_world_ != nullptr) soft_world_->getWorldInfo().m_gravity = gravity;
 }
 
 void BulletWorld::end_all_pairs() {

@@ -35,6 +35,9 @@ class BulletWorld {
   btDispatcher& dispatcher() { return *dispatcher_; }
   RowSolver& solver() { return *solver_; }
 
+  /// Of rigid and of soft bodies, in m/s^2.
+  void set_gravity(const btVector3& gravity);
+
   /// Ends all pairs through the pair cache, ghosts and algorithms included. To be called before taking out everything:
   /// removing thousands of objects one by one costs Bullet's own broad-phases a scan of all pairs for each.
   void end_all_pairs();

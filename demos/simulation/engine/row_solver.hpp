@@ -48,6 +48,10 @@ class RowSolver {
   void add_work_of_motors(double joules) {
     if (acting_on_ != nullptr) work_.motors += joules;
   }
+  /// Likewise of conveyors.
+  void add_work_of_surfaces(double joules) {
+    if (acting_on_ != nullptr) work_.surfaces += joules;
+  }
   /// Links that moved without a row for what holds them.
   void add_links(std::uint64_t count) { rows_.links += count; }
   /// Largest squared change of an impulse in the last iteration, the largest of all islands since it was last read; 0
@@ -60,6 +64,7 @@ class RowSolver {
   /// What touches a kinematic body is carried along its surface with a velocity of the world's axes, in m/s. The body
   /// itself stays where it is. Bullet takes velocities of kinematic bodies into account, and none of fixed ones.
   void set_surface_velocity(btCollisionObject& body, const btVector3& velocity) { conveyors_[&body] = velocity; }
+  const Conveyors& conveyors() const { return conveyors_; }
 
   /// Where split impulses are on, which contacts get them. Those that are deeper than 4 cm, if this is not called.
   void set_moved_apart(MovedApart moved_apart) { moved_apart_ = std::move(moved_apart); }

@@ -295,10 +295,11 @@ bool Simulation::is_finite() const {
 }
 
 std::uint64_t Simulation::outside() const {
-  const auto& bodies = impl_->instance.bodies;
+  // By what the scene says: a body that is frozen is static to Bullet.
+  const std::vector<Body>& bodies = expanded().bodies;
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    count += !bodies[i]->isStaticOrKinematicObject() &&
+    count += bodies[i].traits.type == BodyType::dynamic &&
              !is_inside(impl_->scene.world.bounds, impl_->instance.described(i).getOrigin());
   return count;
 }

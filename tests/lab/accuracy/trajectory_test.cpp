@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "accuracy/sweep.hpp"
+#include "formats/scene_json/load_scene.hpp"
+#include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy_test {
 namespace {
@@ -38,6 +40,23 @@ TEST(Trajectory, PartsWhereOneTouchesAndTheOtherDoesNot) {
   EXPECT_EQ(divergence_time(a, b, 0.1, 5), 3);
   // Too close to the end to tell.
   EXPECT_EQ(divergence_time(a, b, 0.1, 3.05), 3.05);
+}
+
+TEST(Trajectory, HasBodiesThatAreFrozenToo) {
+  const scenes::Scene scene =
+      scenes::parse_scene(R"({"format": 1, "meta": {"name": "made", "about": "made", "source": "made"},
+    "time": {"dt": 0.01, "steps": 9}, "world": {"gravity": [0, 0, 0], "on_leave": "freeze",
+      "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}}, "shapes": [{"name": "ball", "type": "sphere", "radius": 0.1}],
+    "bodies": [{"shape": "ball", "mass": 1, "position": [0.95, 0, 0], "velocity": [10, 0, 0]},
+      {"shape": "ball", "mass": 1, "position": [0, 0.5, 0]}]})",
+                          "made.json");
+  scenes::Simulation simulation(scene, "boxstream");
+  simulation.advance();
+  ASSERT_EQ(simulation.left(), 1u);
+  const Frame frame = frame_of(simulation);
+  ASSERT_EQ(frame.positions.size(), 2u);
+  EXPECT_NEAR(frame.positions[0].x(), 1.05, 1e-5);
+  EXPECT_NEAR(frame.positions[1].y(), 0.5, 1e-6);
 }
 
 /// Coarse steps jump over a plate that the reference meets.

@@ -304,6 +304,52 @@ TEST(Seed, ChangesPlacesButNothingElse) {
   EXPECT_GT(moved, 1000);
 }
 
+TEST(Scaled, SpeedsAndPlacesGrowInSelfSimilarWorldsAlone) {
+  Scene scene;
+  scene.fields = {VortexField{{1, 0, 2}, 4, 5, 6, 7, 8}, WindField{{9, 0, 3}, 1.5, 0.4}, DragField{1, 6, 2, 12, 0.4},
+                  BuoyancyField{2, 900, 3}, ImpulsesField{0.1, 4}};
+  GridGenerator grid;
+  grid.count = 8;
+  grid.vortex = 2;
+  grid.speed = 0.5;
+  RespawnGenerator drops;
+  drops.count = 4;
+  drops.origin = {0, 7, 1};
+  drops.size = {2, 1, 2};
+  drops.velocity = {0, -4, 0};
+  scene.generators = {grid, drops};
+  for (const bool self_similar : {false, true}) {
+    scene.world.self_similar = self_similar;
+    const Scene large = scaled(scene, 27);
+    const double by = self_similar ? 3 : 1;
+    const auto grows = [](double is, double should) { EXPECT_DOUBLE_EQ(is, should); };
+    const auto moves = [](const Vec3& is, const Vec3& should) { EXPECT_NEAR(distance(is, should), 0, 1e-12); };
+    const auto& vortex = std::get<VortexField>(large.fields[0]);
+    moves(vortex.centre, {by, 0, 2 * by});
+    grows(vortex.speed, 6 * by);
+    grows(vortex.updraft, 7 * by);
+    grows(vortex.rate, 8);
+    const auto& wind = std::get<WindField>(large.fields[1]);
+    moves(wind.velocity, {9 * by, 0, 3 * by});
+    grows(wind.density, 1.5 / by);
+    const auto& drag = std::get<DragField>(large.fields[2]);
+    grows(drag.linear, 1);
+    grows(drag.quadratic, 6 / by);
+    grows(drag.density, 12 / by);
+    const auto& fluid = std::get<BuoyancyField>(large.fields[3]);
+    grows(fluid.level, 2 * by);
+    grows(fluid.density, 900);
+    grows(std::get<ImpulsesField>(large.fields[4]).speed, 4 * by);
+    const auto& lattice = std::get<GridGenerator>(large.generators[0]);
+    grows(lattice.vortex, 2 * by);
+    grows(lattice.speed, 0.5 * by);
+    const auto& respawn = std::get<RespawnGenerator>(large.generators[1]);
+    moves(respawn.origin, {0, 7 * by, by});
+    moves(respawn.size, {6, 3, 6});
+    moves(respawn.velocity, {0, -4 * by, 0});
+  }
+}
+
 TEST(Scaled, KeepsProportionsAndDropsExpectations) {
   const Scene pile = load_scene(file_of("pile"));
   const Scene eighth = scaled(pile, 0.125);

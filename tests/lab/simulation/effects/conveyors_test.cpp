@@ -81,6 +81,26 @@ TEST(Conveyor, RollsABallWithTwoSeventhsOfItsSpeed) {
   EXPECT_NEAR(place(simulation).x() - before, 2.0 / 7, 0.01);
 }
 
+/// Friction acts at each bounce. The first one makes a ball roll: two sevenths of the belt's speed, the rest is spin.
+TEST(Conveyor, CarriesWhatBouncesOnContact) {
+  Scene scene = exhibit("conveyors");
+  scene.time.dt = 1e-3;
+  scene.solver.bounces = scenes::Bounces::on_contact;
+  scene.bodies[1].surface_velocity = {3, 0, 0};
+  for (scenes::Body& body : scene.bodies) body.traits.material.friction = body.traits.material.restitution = 1;
+  scene.bodies[0].traits.material.restitution = 0.8;
+  scene.bodies[0].position[1] += 0.6;
+  Simulation simulation(scene, "boxstream");
+  for (int i = 0; i < 500; ++i) simulation.advance(true);
+  const btRigidBody& ball = *btRigidBody::upcast(simulation.objects()[0]);
+  const double radius = std::get<scenes::SphereShape>(scene.shapes[0].value).radius;
+  EXPECT_NEAR(ball.getLinearVelocity().x(), 3 * 2 / 7.0, 0.005);
+  EXPECT_NEAR(ball.getAngularVelocity().z(), 3 * 5 / 7.0 / radius, 0.01);
+  const scenes::EnergyBalance balance = simulation.energy_balance();
+  EXPECT_NEAR(balance.work.surfaces, *scene.bodies[0].traits.mass * 3 * 3 * 2 / 7.0, 0.01);
+  EXPECT_FALSE(balance.worst);
+}
+
 TEST(Conveyor, CarriesNothingWithoutFriction) {
   Scene scene = belt();
   scene.bodies[0].traits.material.friction = 0;

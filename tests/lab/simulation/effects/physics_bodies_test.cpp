@@ -309,6 +309,43 @@ TEST(SpinningFriction, SlowsABallDownThatSpinsOnTheSpotAndRollsNoneDown) {
   EXPECT_LT(left(0.1), 9);
 }
 
+/// A car at rest on its wheels, whose springs are deflected by g / (wheels * stiffness).
+Scene car(double mass, double stiffness) {
+  Scene scene = exhibit("vehicles");
+  scenes::Vehicle& vehicle = scene.vehicles[0];
+  vehicle.engine = 0;
+  vehicle.stiffness = stiffness;
+  scenes::Body& chassis = scene.bodies[vehicle.chassis];
+  chassis.traits.mass = mass;
+  const scenes::Wheel& wheel = vehicle.wheels[0];
+  chassis.position[1] = wheel.radius + vehicle.suspension - wheel.at[1] - 9.81 / (4 * stiffness);
+  return scene;
+}
+
+TEST(Vehicles, SinkByTheirStiffnessWhateverTheyWeigh) {
+  for (const double mass : {600.0, 9000.0, 60'000.0}) {
+    Scene scene = car(mass, 30);
+    const double height = scene.bodies[scene.vehicles[0].chassis].position[1];
+    Simulation simulation(scene, "boxstream");
+    run(simulation, 2);
+    EXPECT_NEAR(place(simulation, scene.vehicles[0].chassis).y(), height, 1e-3) << mass << " kg";
+  }
+}
+
+TEST(Vehicles, BrakeAlikeInAnyNumberOfSubsteps) {
+  for (const int substeps : {1, 5}) {
+    Scene scene = car(1200, 20);
+    scene.time.substeps = substeps;
+    scenes::Vehicle& vehicle = scene.vehicles[0];
+    vehicle.brake = 10;
+    scene.bodies[vehicle.chassis].velocity = {0, 0, 3};
+    Simulation simulation(scene, "boxstream");
+    for (int i = 0; i < 30; ++i) simulation.advance();
+    // Four wheels take 10 N s each in a step.
+    EXPECT_NEAR(body(simulation, vehicle.chassis).getLinearVelocity().z(), 3 - 30 * 4 * 10 / 1200.0, 1e-3) << substeps;
+  }
+}
+
 TEST(RainAndLeaving, AreTheSameOnEveryBroadphase) {
   Scene scene = exhibit("respawn");
   scene.world.on_leave = scenes::OnLeave::remove;
@@ -346,6 +383,31 @@ TEST(RainAndLeaving, WhatWasFrozenFallsAgain) {
   const std::size_t bodies = simulation.objects().size();
   for (int i = 0; i < 2000 && simulation.left() <= 2 * bodies; ++i) simulation.step();
   EXPECT_GT(simulation.left(), 2 * bodies) << "each leaves once and is never seen again";
+}
+
+/// One ball freezes just below the bounds, and another of its radius of 0.4 m lands on it.
+TEST(OutOfBounds, WhatIsFrozenBearsWhatFallsOnIt) {
+  for (const auto extent : {effects::Extent::only_called, effects::Extent::all}) {
+    Scene scene = exhibit("out_of_bounds");
+    scene.time.dt = 1.0 / 240;
+    scene.world.gravity = {0, -9.81, 0};
+    scene.world.bounds = {{-10, 0, -10}, {10, 20, 10}};
+    scene.world.on_leave = scenes::OnLeave::freeze;
+    std::get<scenes::SphereShape>(scene.shapes[0].value).radius = 0.4;
+    scene.bodies[0].traits.mass = 2;
+    scene.bodies[0].velocity = {0, 0, 0};
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[0].position = {0, 0.7, 0};
+    scene.bodies[1].position = {0, 3, 0};
+    Simulation simulation(scene, "boxstream", {}, extent);
+    while (simulation.left() == 0) simulation.advance();
+    const btVector3 frozen = place(simulation);
+    run(simulation, 2);
+    EXPECT_EQ(place(simulation), frozen);
+    EXPECT_EQ(body(simulation).getLinearVelocity(), btVector3(0, 0, 0));
+    EXPECT_NEAR(place(simulation, 1).y(), frozen.y() + 0.8, 0.002);
+    EXPECT_EQ(simulation.outside(), 1u) << "it is out of bounds still";
+  }
 }
 
 }  // namespace

@@ -140,8 +140,7 @@ class RandomScene {
     json scene = json::parse(frame);
     for (const char* const name : {"m0", "m1", "m2", "m3"}) scene["materials"][name] = material();
     if (chance(0.5)) scene["world"]["gravity"] = {0, -9.81, 0};
-    // Not "freeze": where kinematic bodies are built, Bullet works out a velocity of frozen ones, with rounding errors.
-    scene["world"]["on_leave"] = any<const char*>({"nothing", "remove", "report"});
+    scene["world"]["on_leave"] = any<const char*>({"nothing", "freeze", "remove", "report"});
     if (chance(0.8)) add_floor(scene["bodies"]);
     // Often one alone: an effect that another body calls for is on for all.
     const int count = chance(0.4) ? 1 : 2 + static_cast<int>(random_() % 7);
