@@ -19,13 +19,13 @@ def grid(count):
 
 @pytest.fixture(scope="module")
 def apart():
-    """So many that a search of them takes several times as long as an alarm takes to come."""
+    """So many that a search of them takes longer than an alarm takes to come."""
     count = 3_000_000
     while True:
         boxes = grid(count)
         begin = time.monotonic()
         boxstream.find_pairs(boxes)
-        if time.monotonic() - begin > 0.3:
+        if time.monotonic() - begin > 0.15:
             return boxes
         count *= 2
 
@@ -73,7 +73,7 @@ def calls(boxes):
 def test_every_search_is_left_at_once(apart):
     left = 0
     for name, call in calls(apart).items():
-        for _ in range(4):  # other work on the machine may come between
+        for _ in range(10):  # other work on the machine may come between
             seconds = interrupted(call)
             if name in ("update", "find_neighbours"):
                 time.sleep(1.5)  # the object is in use until then

@@ -95,11 +95,11 @@ except KeyboardInterrupt:
 
 
 def ends_soon(statement):
-    """A KeyboardInterrupt comes out of the statement, once of three times within the second after it was sent."""
+    """A KeyboardInterrupt, sent after half a second, comes out of the statement before two, once of three times."""
     for _ in range(3):  # other work on the machine may come between
         seconds = interrupted(statement)
         assert seconds > 0.4
-        if seconds < 1.5:
+        if seconds < 2:
             return True
     return False
 
@@ -120,7 +120,7 @@ def test_a_keyboard_interrupt_stops_a_stream(block, executor):
 
 
 def test_a_keyboard_interrupt_stops_queries():
-    assert ends_soon("world.query_nearest(boxes[:, :3].copy(), 1000)")
+    assert ends_soon("world.query_nearest(boxes[:, :3].copy(), 100)")
 
 
 def progress_during(search):
