@@ -167,7 +167,9 @@ TEST(Outputs, NameTheEffectsThatAreBuilt) {
     EXPECT_FALSE(called.contains(effect)) << effect;
     EXPECT_TRUE(all.contains(effect)) << effect;
   }
-  EXPECT_EQ(run_tool({"simulate", "effects/nothing", "--only-called", "--all-effects"}).exit_code, 2);
+  const Outcome both = run_tool({"simulate", "effects/nothing", "--only-called", "--all-effects"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.err, "boxstream: --all-effects excludes --only-called (see boxstream simulate --help)\n");
 }
 
 // Two cubes of 1 m, one 0.4 m deep in the floor and thrown out, since nothing moves it apart.
