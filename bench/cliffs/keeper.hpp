@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/stopwatch.hpp"
 #include "peers/pair_hash.hpp"
 
 namespace boxstream::bench {
@@ -74,7 +75,8 @@ struct CliffCall {
   std::unique_ptr<Keeper> (*make)();
   std::unique_ptr<Keeper> (*make_peer)();  ///< or null
   std::uint64_t (*run)(Keeper& keeper, const CliffScene& scene);
-  bool has_history = true;  ///< else a call needs no filled keeper
+  bool has_history = true;                      ///< else a call needs no filled keeper
+  measure::Clock clock = measure::Clock::wall;  ///< that of the processor takes longer to read than some calls
 };
 
 /// Those of one kind.

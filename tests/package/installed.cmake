@@ -45,7 +45,7 @@ function(boxstream_refusal_test name message)
   # CMake breaks its messages into lines.
   string(REPLACE " " "[ \n]+" pattern "${message}")
   set_tests_properties(package.${name} PROPERTIES LABELS package FIXTURES_REQUIRED installed
-    PASS_REGULAR_EXPRESSION "${pattern}")
+    PASS_REGULAR_EXPRESSION "${pattern}" FAIL_REGULAR_EXPRESSION "Build files have been written")
 endfunction()
 
 set(consumer ${CMAKE_CURRENT_SOURCE_DIR}/consumer)

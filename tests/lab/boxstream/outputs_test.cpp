@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "formats/scene_json/load_scene.hpp"
@@ -147,6 +148,28 @@ TEST(Outputs, SayWhatEffectsDid) {
             json({{{"effect", "gravity"}, {"count", 50}, {"unit", "falling bodies"}},
                   {{"effect", "contacts"}, {"count", 0}, {"unit", "contact points"}},
                   {{"effect", "split_impulse"}, {"count", 0}, {"unit", "contact points"}}}));
+}
+
+// Nothing acts in it, so that it calls for nothing.
+TEST(Outputs, NameTheEffectsThatAreBuilt) {
+  const auto built = [](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"simulate", "effects/nothing", "--steps", "2", "--json", "-"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome run = run_tool(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::set<std::string> names;
+    for (const json& row : json::parse(run.out)["worlds"][0]["activity"]) names.insert(row["effect"]);
+    return names;
+  };
+  const auto called = built({}), all = built({"--all-effects"});
+  EXPECT_EQ(built({"--only-called"}), called);
+  for (const char* const effect : {"gravity", "contacts", "wind"}) {
+    EXPECT_FALSE(called.contains(effect)) << effect;
+    EXPECT_TRUE(all.contains(effect)) << effect;
+  }
+  const Outcome both = run_tool({"simulate", "effects/nothing", "--only-called", "--all-effects"});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_EQ(both.err, "boxstream: --all-effects excludes --only-called (see boxstream simulate --help)\n");
 }
 
 // Two cubes of 1 m, one 0.4 m deep in the floor and thrown out, since nothing moves it apart.

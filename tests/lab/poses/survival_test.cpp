@@ -92,18 +92,16 @@ TEST(Survival, OfAnExceptionAtEveryPair) {
 
 TEST(Survival, OfACallbackThatStopsWhenItsTimeIsOver) {
   const AllBoxes boxes;
-  const auto end = Clock::now() + std::chrono::milliseconds(20);
-  std::size_t calls = 0, late = 0;
+  std::size_t calls = 0;
   Callback callback{[&](Object*, Object*) {
     ++calls;
-    late += Clock::now() >= end;
+    const auto end = Clock::now() + std::chrono::milliseconds(20);
     while (Clock::now() < end) {
     }
     return true;
   }};
   boxes.manager.collide(&callback, Callback::call);
   EXPECT_EQ(calls, 1U);
-  EXPECT_EQ(late, 0U);
   EXPECT_TRUE(boxes.is_exact());
 }
 

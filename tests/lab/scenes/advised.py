@@ -82,7 +82,7 @@ def main():
         print(f"{scene}: {best or 'nothing is sound'} ({len(chosen)} starred or advised, {len(answer['settings'])} tried)")
         print("\n".join(lines), end="\n" if lines else "", flush=True)
     print(f"{advised} settings starred or advised, {wrong} of them wrong; {without} scenes without advice")
-    return 1 if wrong else 0
+    return 1 if wrong or not advised else 0
 
 
 def steps_of(row, shortened):

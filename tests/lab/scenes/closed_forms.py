@@ -29,7 +29,10 @@ ROOM = 1.02, 1e-4  # by which an error may be larger than the one noted: other c
 def all_cases(only):
     cases = [*moving.cases(), *touching.cases(), *far.cases()]
     assert len({case.name for case in cases}) == len(cases)
-    return [case for case in cases if not only or any(case.name.startswith(start) for start in only)]
+    for start in only:
+        if not any(case.name.startswith(start) for case in cases):
+            raise SystemExit(f"no case starts with {start}")
+    return [case for case in cases if not only or case.name.startswith(tuple(only))]
 
 
 def try_setting(tool, case, setting):
@@ -124,12 +127,17 @@ def main():
     parser.add_argument("--check", action="store_true", help="compare with what is noted; write nothing")
     parser.add_argument("--warnings", action="store_true",
                         help="check that explain and simulate warn of what is noted to be wrong at default settings")
+    parser.add_argument("--covered", action="store_true", help="check that --only names every case; run nothing")
     parser.add_argument("--only", nargs="*", default=[], metavar="START", help="cases whose names start so")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     marked_page.require_marks(options.into, MARK)
     cases = all_cases(options.only)
     noted = json.loads(BANDS.read_text()) if BANDS.exists() else {}
+    if options.covered:
+        left_out = sorted({case.name for case in all_cases([])} - {case.name for case in cases})
+        print("\n".join(f"{name}: no family has it" for name in left_out) or f"families have all of {len(cases)} cases")
+        return 1 if left_out else 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         if options.warnings:
             wrong = [case for case in cases if (noted[case.name]["error"] is None or noted[case.name]["error"] > case.tolerance)]

@@ -37,6 +37,21 @@ static bool touch(const double* a, const double* b) {
   return true;
 }
 
+/* The square of the distance of two boxes, whose numbers are whole and small: exact. */
+static double square_between(const double* a, const double* b) {
+  double sum = 0;
+  for (int d = 0; d < 3; ++d) {
+    const double gap = fmax(0, fmax(b[d] - a[3 + d], a[d] - b[3 + d]));
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+static int compare(const void* a, const void* b) {
+  const double x = *(const double*)a, y = *(const double*)b;
+  return (x > y) - (x < y);
+}
+
 /* A matrix of what touches. */
 static bool* matrix(void) {
   bool* all = calloc((size_t)N * N, sizeof(bool));
@@ -173,11 +188,12 @@ static double see_nearest(void* user, boxstream_id id, double distance) {
   if (distance < found->nearest) found->nearest = distance;
   return found->nearest;
 }
+static const double near_limit = 1.4;
 static double count_pairs(void* user, boxstream_id_pair pair, double distance) {
   (void)pair;
-  CHECK(distance < 1);
+  CHECK(distance < near_limit);
   ++*(size_t*)user;
-  return 1;
+  return near_limit;
 }
 static bool refuse(void* user, boxstream_id a, boxstream_id b) {
   (void)a, (void)b;
@@ -259,7 +275,8 @@ static void test_world(void) {
   size_t held = 0;
   CHECK(boxstream_world_stream_pairs(world, add, &held) == BOXSTREAM_OK && held == expected);
 
-  const double box[6] = {3, 3, 3, 12, 12, 12}, origin[3] = {-5, 4, 4}, ahead[3] = {1, 0, 0}, point[3] = {1, 2, 3};
+  const double box[6] = {3, 3, 3, 12, 12, 12}, origin[3] = {-5, 4, 4}, ahead[3] = {1, 0, 0};
+  const double point[6] = {1, 2, 3, 1, 2, 3}; /* as a box */
   const double far_box[6] = {100, 0, 0, 101, 1, 1};
   struct Found found = {ids, world, {false}, 0, INFINITY};
   CHECK(boxstream_world_query_box(world, box, see, &found) == BOXSTREAM_OK);
@@ -272,30 +289,20 @@ static void test_world(void) {
   }
   boxstream_id near_ids[3];
   CHECK(boxstream_world_query_nearest(world, point, near_ids, 3, &count) == BOXSTREAM_OK && count == 3);
-  double last = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double* b = moved + 6 * (boxstream_world_user(world, near_ids[i]) - 1000);
-    double distance = 0;
-    for (int d = 0; d < 3; ++d) {
-      const double gap = fmax(0, fmax(b[d] - point[d], point[d] - b[3 + d]));
-      distance += gap * gap;
-    }
-    CHECK(distance >= last);
-    last = distance;
-  }
+  double squares[N];
+  for (size_t i = 0; i < N; ++i) squares[i] = square_between(point, moved + 6 * i);
+  qsort(squares, N, sizeof *squares, compare);
+  for (int i = 0; i < 3; ++i)
+    CHECK(square_between(point, moved + 6 * (boxstream_world_user(world, near_ids[i]) - 1000)) == squares[i]);
   CHECK(boxstream_world_query_near(world, far_box, INFINITY, see_nearest, &found) == BOXSTREAM_OK);
   double least = INFINITY;
-  for (size_t i = 0; i < N; ++i) {
-    double distance = 0;
-    for (int d = 0; d < 3; ++d) {
-      const double gap = fmax(0, fmax(moved[6 * i + d] - far_box[3 + d], far_box[d] - moved[6 * i + 3 + d]));
-      distance += gap * gap;
-    }
-    least = fmin(least, sqrt(distance));
-  }
+  for (size_t i = 0; i < N; ++i) least = fmin(least, sqrt(square_between(far_box, moved + 6 * i)));
   CHECK(fabs(found.nearest - least) < 1e-9);
-  size_t near_pairs = 0;
-  CHECK(boxstream_world_near_pairs(world, 1, count_pairs, &near_pairs) == BOXSTREAM_OK && near_pairs >= expected);
+  size_t near_pairs = 0, expected_near = 0;
+  for (size_t i = 0; i < N; ++i)
+    for (size_t k = 0; k < i; ++k) expected_near += square_between(moved + 6 * i, moved + 6 * k) < 2;
+  CHECK(boxstream_world_near_pairs(world, near_limit, count_pairs, &near_pairs) == BOXSTREAM_OK);
+  CHECK(near_pairs == expected_near && expected_near > expected);
 
   CHECK(boxstream_world_set_filter(world, ids[0], (boxstream_filter){0, 0}));
   CHECK(boxstream_world_remove(world, ids, 10, &count) == BOXSTREAM_OK && count == 10);

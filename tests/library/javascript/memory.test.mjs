@@ -44,18 +44,51 @@ test("what is out of reach is given back", async () => {
   }
 });
 
-test("a freed object says so", () => {
-  const [world, detector] = [new World(), new Detector()];
+test("a freed World does not give what it has handed out before", () => {
+  const world = new World();
   world.create(crowd(2));
   world.update();
-  assert.equal(world.pairs.length + world.begun.length + world.ended.length, 4); // which it keeps for the next that ask
+  assert.equal(world.pairs.length + world.begun.length + world.ended.length, 4);
   world.free();
-  detector.free();
-  for (const use of [() => world.update(), () => world.create(crowd(1)), () => world.pairs, () => world.begun, () => world.ended, () => world.dtype])
+  for (const use of [() => world.pairs, () => world.begun, () => world.ended])
     assert.throws(use, { name: "Error", message: "this World has been freed" });
-  for (const use of [() => detector.findPairs(crowd(1)), () => detector.stats])
-    assert.throws(use, { name: "Error", message: "this Detector has been freed" });
 });
+
+/** What is asked of each class. */
+const uses = new Map([
+  [Detector, { findPairs: (detector) => detector.findPairs(crowd(1)), findNeighbours: (detector) => detector.findNeighbours(crowd(1)), stats: (detector) => detector.stats }],
+  [World, {
+    size: (world) => world.size,
+    dtype: (world) => world.dtype,
+    create: (world) => world.create(crowd(1)),
+    move: (world) => world.move(new Float64Array(1), crowd(1)),
+    destroy: (world) => world.destroy(new Float64Array(1)),
+    setFilters: (world) => world.setFilters(new Float64Array(1), { masks: new Uint32Array(1) }),
+    clear: (world) => world.clear(),
+    update: (world) => world.update(),
+    contains: (world) => world.contains(new Float64Array(1)),
+    boxes: (world) => world.boxes(new Float64Array(1)),
+    users: (world) => world.users(new Float64Array(1)),
+    bounds: (world) => world.bounds,
+    begun: (world) => world.begun,
+    ended: (world) => world.ended,
+    pairs: (world) => world.pairs,
+    queryBoxes: (world) => world.queryBoxes(crowd(1)),
+    queryRays: (world) => world.queryRays(new Float32Array(3), Float32Array.of(1, 0, 0)),
+    castRays: (world) => world.castRays(new Float32Array(3), Float32Array.of(1, 0, 0)),
+    queryNearest: (world) => world.queryNearest(new Float32Array(3)),
+  }],
+]);
+
+for (const [Class, methods] of uses)
+  test(`a freed ${Class.name} says so, whatever it is asked`, () => {
+    const names = Object.getOwnPropertyNames(Class.prototype).filter((name) => name !== "constructor");
+    assert.deepEqual(Object.keys(methods).sort(), names.sort());
+    const freed = new Class();
+    freed.free();
+    for (const [name, use] of Object.entries(methods))
+      assert.throws(() => use(freed), { name: "Error", message: `this ${Class.name} has been freed` }, name);
+  });
 
 test("out of memory in a search, which works afterwards", () => {
   const detector = new Detector();

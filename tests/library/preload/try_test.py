@@ -63,7 +63,9 @@ class Programs(unittest.TestCase):
         done = tried("--compare", "--", PROGRAMS[0])
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stderr, r"the whole program +\d+\.\d+ s +\d+\.\d+ s +\d+\.\d\d\n")
-        self.assertRegex(done.stderr, r"calls of (Bullet|FCL)'s broad-phases and callbacks +0\.\d*[1-9]\d* s +0\.\d*[1-9]\d* s")
+        calls = re.search(r"calls of (?:Bullet|FCL)'s broad-phases and callbacks +(\d+\.\d+) s +(\d+\.\d+) s", done.stderr)
+        self.assertIsNotNone(calls, done.stderr)
+        self.assertGreater(min(float(calls[1]), float(calls[2])), 0)
 
     def test_children_are_replaced_too(self):
         done = tried("--", "sh", "-c", f"{PROGRAMS[0]} && {PROGRAMS[0]}")

@@ -98,10 +98,12 @@ def test_arguments_are_those_of_searches():
 def test_threads_may_ask_at_once():
     boxes = random_boxes(20_000, np.float32)
     index = boxstream.BoxIndex(boxes)
+    alone = index.query_boxes(boxes)
+    assert len(alone) > len(boxes)
     answers = []
     threads = [threading.Thread(target=lambda: answers.append(index.query_boxes(boxes))) for _ in range(4)]
     for each in threads:
         each.start()
     for each in threads:
         each.join()
-    assert all(np.array_equal(each, answers[0]) for each in answers)
+    assert len(answers) == 4 and all(np.array_equal(each, alone) for each in answers)

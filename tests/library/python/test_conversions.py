@@ -87,6 +87,26 @@ def test_dimensions_and_rules(dtype, dimensions):
             assert {(min(a, b), max(a, b)) for a, b in two.tolist() if a != b} == other_ids
 
 
+def results(dtype):
+    """Of every call that has a dtype, all in one array."""
+    boxes = random_boxes(300, np.float64)
+    points = boxes[:, :3].copy()
+    blocks = []
+    boxstream.stream_pairs(boxes, blocks.append, dtype=dtype)
+    boxstream.stream_near_pairs(points, 0.1, blocks.append, dtype=dtype)
+    rows = [boxstream.find_pairs(boxes, dtype=dtype), *blocks, boxstream.find_pairs_in_sets(boxes, [0, 200, 300], dtype=dtype)[0],
+            boxstream.find_near_pairs(points, 0.1, dtype=dtype), boxstream.BoxIndex(boxes).query_boxes(boxes[:20], dtype=dtype),
+            boxstream.find_neighbours(boxes, dtype=dtype)[1]]
+    assert all(len(each) > 20 for each in rows)
+    return np.concatenate([each.reshape(-1) for each in rows])
+
+
+@pytest.mark.parametrize("dtype", [np.int32, np.uint32])
+def test_every_result_has_the_dtype_that_was_asked_for(dtype):
+    expected, found = results(np.int64), results(dtype)
+    assert (expected.dtype, found.dtype) == (np.int64, dtype) and np.array_equal(found, expected)
+
+
 def test_points_in_a_plane():
     points = np.random.default_rng(4).random((400, 2))
     gaps = ((points[:, None] - points[None]) ** 2).sum(axis=2)

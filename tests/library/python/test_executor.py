@@ -31,19 +31,18 @@ def test_one_executor_for_searches_at_the_same_time():
     boxes = random_boxes(30000, np.float32, size=0.05)
     alone = boxstream.find_pairs(boxes)
     executor = boxstream.Executor(3)
-    wrong = []
+    right = []
 
     def search():
         for _ in range(5):
-            if not np.array_equal(boxstream.find_pairs(boxes, executor=executor), alone):
-                wrong.append(True)
+            right.append(np.array_equal(boxstream.find_pairs(boxes, executor=executor), alone))
 
     threads = [threading.Thread(target=search) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert not wrong
+    assert right == [True] * 20
 
 
 def test_a_search_within_a_callback():

@@ -154,9 +154,11 @@ def searching(search):
     thread = threading.Thread(target=work)
     thread.start()
     begun.wait()
-    yield
-    done.set()
-    thread.join()
+    try:
+        yield
+    finally:  # a failure of what is tested ends the thread too
+        done.set()
+        thread.join()
     assert not failed
 
 

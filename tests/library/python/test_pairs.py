@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """find_pairs against all pairs of boxes, compared by NumPy."""
+import re
 import tracemalloc
 
 import numpy as np
@@ -147,3 +148,38 @@ def test_the_hybrid_method_finds_the_same(dtype, cutoff):
     assert world.update().search.boxes == 700
     assert world.update().search.boxes == 0
     assert len(world.pairs) == len(self_pairs(boxes))
+
+
+def told_by(stats):
+    """The counts that its text names, which is written from the struct itself."""
+    return {name: int(value) for name, value in re.findall(r"(\w+)=(\d+)", repr(stats).split(", search=")[0])}
+
+
+def test_counts_are_those_of_their_names():
+    detector = boxstream.Detector()
+    boxes = random_boxes(20_000, np.float32)
+    boxes[:3, 0] = np.nan
+    pairs = detector.find_pairs(boxes)
+    told = told_by(detector.stats)
+    assert told == {name: getattr(detector.stats, name) for name in told}
+    assert len(set(told.values())) == 7 and 0 not in told.values()
+    assert (told["boxes"], told["invalid"], told["pairs"]) == (20_000, 3, len(pairs))
+    assert detector.stats.over_budget == 0  # as none of the others is
+
+
+def test_counts_of_a_world_are_those_of_their_names():
+    world = boxstream.World()
+    boxes = np.zeros((40, 6), np.float32)
+    boxes[:, 3] = 1
+    boxes[:, [0, 3]] += np.arange(40)[:, None]  # in a row, each touches the next
+    boxes[39, 0] = np.nan
+    ids = world.create(boxes)
+    world.update()
+    boxes[:2, 1:3] = 7  # the first two by themselves, elsewhere
+    boxes[:2, 4:] = 8
+    world.move(ids[:2], boxes[:2])
+    world.destroy(ids[20:21])
+    stats = world.update()
+    assert told_by(stats) == {"proxies": 39, "invalid": 1, "moved": 2, "pairs": 35, "begun": 0, "ended": 3}
+    assert told_by(stats) == {name: getattr(stats, name) for name in told_by(stats)}
+    assert stats.search.boxes == told_by(stats.search)["boxes"]

@@ -94,6 +94,16 @@ except KeyboardInterrupt:
 """
 
 
+def ends_soon(statement):
+    """A KeyboardInterrupt, sent after half a second, comes out of the statement before two, once of three times."""
+    for _ in range(3):  # other work on the machine may come between
+        seconds = interrupted(statement)
+        assert seconds > 0.4
+        if seconds < 2:
+            return True
+    return False
+
+
 def interrupted(statement):
     """Seconds until a KeyboardInterrupt came out of the statement."""
     run = subprocess.run([sys.executable, "-c", INTERRUPTED % statement], capture_output=True, text=True, timeout=100,
@@ -106,11 +116,11 @@ def interrupted(statement):
 @pytest.mark.parametrize("executor", ["None", "boxstream.Executor(2)"])
 def test_a_keyboard_interrupt_stops_a_stream(block, executor):
     call = f"boxstream.stream_pairs(boxes, lambda pairs: None, block={block}, executor={executor})"
-    assert 0.4 < interrupted(call) < 20
+    assert ends_soon(call)
 
 
 def test_a_keyboard_interrupt_stops_queries():
-    assert 0.4 < interrupted("world.query_nearest(boxes[:, :3].copy(), 1000)") < 20
+    assert ends_soon("world.query_nearest(boxes[:, :3].copy(), 100)")
 
 
 def progress_during(search):
@@ -134,8 +144,9 @@ def progress_during(search):
     return after - before
 
 
-def test_other_threads_run_during_a_search():
-    boxes = random_boxes(200000, np.float64, size=0.05)
+@pytest.mark.parametrize("count", [150_000, 200_000])  # the latter are enough for a thread of the search
+def test_other_threads_run_during_a_search(count):
+    boxes = random_boxes(count, np.float64, size=0.05)
     world = boxstream.World("float64")
     world.create(boxes)
     assert progress_during(lambda: boxstream.find_pairs(boxes)) > 5

@@ -201,7 +201,6 @@ TEST(Memory, OfPairsThatAreToldGoesBack) {
       searches_then ? world.update() : world.update_told(Span<const ProxyPair>(&one, 1), {}, accept);
     }
     EXPECT_LT(5 * (heap_watch::live_bytes() - before), most);
-    world.validate();
   }
 }
 
@@ -258,7 +257,8 @@ TEST(Memory, OfBoxesAndPairs) {
 
 // Ranks mean other proxies after the proxies of an update that failed are gone.
 TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
-  for (const auto mode : search_modes)
+  for (const auto mode : search_modes) {
+    int failed = 0;
     for (std::int64_t first = 0; first < 12; ++first) {
       SCOPED_TRACE("mode " + std::to_string(int(mode)) + ", allocation " + std::to_string(first));
       WatchedWorld<float> watched(mode);
@@ -275,16 +275,19 @@ TEST(Memory, AnUpdateThatFailsAndIsGivenUpLeavesNothingBehind) {
         watched.world().update();
       } catch (const std::bad_alloc&) {
       }
-      heap_watch::stop_failing();
+      failed += heap_watch::stop_failing() ? 1 : 0;
       for (std::uint32_t i = 0; i < 100; ++i) watched.destroy(i);
       for (int i = 0; i < 40; ++i) watched.create({cube(float(2 * i), 20)});  // more than are looked up one by one
       watched.update();
       if (HasFailure()) return;
     }
+    EXPECT_GT(failed, 0) << "mode " << int(mode);
+  }
 }
 
 TEST(Memory, FewThatShrinkMayFail) {
-  for (const std::size_t count : {2u, 5u, 16u, 17u, 40u})
+  for (const std::size_t count : {2u, 5u, 16u, 17u, 40u}) {
+    int failed = 0;
     for (std::int64_t first = 0; first < 12; ++first) {
       SCOPED_TRACE(std::to_string(count) + " boxes, allocation " + std::to_string(first));
       World world;
@@ -298,12 +301,14 @@ TEST(Memory, FewThatShrinkMayFail) {
         world.shrink_to_fit();
       } catch (const std::bad_alloc&) {
       }
-      heap_watch::stop_failing();
+      failed += heap_watch::stop_failing() ? 1 : 0;
       ASSERT_NO_THROW(world.validate());
       world.update();
       ASSERT_NO_THROW(world.validate());
       ASSERT_EQ(world.pair_count(), count == 2 ? 0 : 2 * count - 5);
     }
+    EXPECT_GT(failed, 0) << count << " boxes";
+  }
 }
 
 void allocates_nothing_in_steady_state(detail::SearchMode mode, int warm_up) {

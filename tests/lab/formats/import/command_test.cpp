@@ -43,6 +43,27 @@ TEST(ImportCommand, WritesToStandardOutput) {
   EXPECT_EQ(scenes::parse_scene(made.out, "out").bodies.size(), 1u);
 }
 
+TEST(ImportCommand, CutsUntilTheVolumeIsNearEnough) {
+  const auto made = [](const char* error) {
+    return run_tool({"import", scenes::shipped("meshes/ring.obj"), "-o", "-", "--hulls", "4", "--error", error});
+  };
+  const Outcome rough = made("0.7"), fine = made("0.6");  // the hull of the whole is larger by 0.67
+  EXPECT_EQ(nlohmann::json::parse(rough.out)["shapes"].size(), 1u);
+  EXPECT_NE(rough.err.find("the volume of its 1 convex parts is "), std::string::npos) << rough.err;
+  EXPECT_GT(nlohmann::json::parse(fine.out)["shapes"].size(), 2u);
+}
+
+TEST(ImportCommand, KeepsAMeshThatIsStatic) {
+  const Outcome made = run_tool({"import", scenes::shipped("meshes/ring.obj"), "-o", "-", "--static"});
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const auto scene = nlohmann::json::parse(made.out);
+  ASSERT_EQ(scene["shapes"].size(), 1u);
+  EXPECT_EQ(scene["shapes"][0]["type"], "mesh");
+  ASSERT_EQ(scene["bodies"].size(), 1u);
+  EXPECT_EQ(scene["bodies"][0]["type"], "static");
+  EXPECT_FALSE(scene["bodies"][0].contains("mass"));
+}
+
 TEST(ImportCommand, RefusesWhatItCannotRead) {
   const ScratchDirectory scratch;
   const std::string scene = scratch.file("out.json");

@@ -43,14 +43,17 @@ class Case:
                  if not self.bodies or number in self.bodies] for k in range(1, SAMPLES + 1)]
 
     def difference(self, mine, other):
-        """In the unit of the case."""
+        """In the unit of the case; infinite where a body is lost or nowhere."""
         if mine is None or other is None:
             return 0.0 if mine == other else math.inf
         if self.measure is not None:
             return abs(mine - other)
+        if [len(step) for step in mine] != [len(step) for step in other]:
+            return math.inf
         squares = [(x - y) ** 2 for step, other_step in zip(mine, other) for body, other_body in zip(step, other_step)
                    for point, other_point in zip(body, other_body) for x, y in zip(point, other_point)]
-        return math.sqrt(3 * sum(squares) / len(squares))
+        mean = sum(squares) / len(squares)
+        return math.inf if math.isnan(mean) else math.sqrt(3 * mean)
 
 
 def points(body, arm):

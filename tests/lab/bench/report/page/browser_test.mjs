@@ -142,9 +142,9 @@ for (const width of [1280, 390])
       assert.deepEqual(lost, []);
     });
 
-    test("a broken criterion leads to the point that breaks it", async () => {
+    test("a broken criterion leads to the point that breaks it", async (t) => {
       const link = run.page.locator(".question .criteria a[href*='-point-']").first();
-      if ((await link.count()) === 0) return;
+      if ((await link.count()) === 0) return t.skip("no criterion is broken");
       await link.click();
       await run.page.waitForSelector("tr.marked");
       assert.ok(await run.page.isVisible("tr.marked"));
