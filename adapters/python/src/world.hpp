@@ -143,7 +143,7 @@ class PyWorld {
   std::variant<World, World64> worlds_;
   Journal journal_;
   std::optional<LastEvents> last_;
-  bool changed_ = false;
+  std::size_t changes_ = 0;  // of proxies, since the last update
   Usage usage_{"World"};
 };
 

@@ -183,7 +183,7 @@ void PyWorld::Journal::note(Span<const ProxyId> ids) noexcept {
 
 py::bytes PyWorld::save() {
   const auto saved = read_long([&]<class S>(const BasicWorld<S>& world, Signals& signals) {
-    if (changed_)
+    if (changes_ != 0)
       throw std::runtime_error("a World can be saved after update(): its boxes or filters have changed since");
     Contents<S> all;
     all.generations = journal_.generations;
