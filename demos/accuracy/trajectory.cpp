@@ -9,10 +9,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "formats/scene_model/expand.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
 namespace {
+
+/// By what the scene says of bodies, and not by what they are now: one that is frozen on its way is one of them still.
+bool is_dynamic(const scenes::Simulation& simulation, std::size_t object) {
+  const std::vector<scenes::Body>& bodies = simulation.expanded().bodies;
+  return object < bodies.size() ? bodies[object].traits.type == scenes::BodyType::dynamic
+                                : !simulation.objects()[object]->isStaticOrKinematicObject();
+}
 
 /// Of two unit quaternions, in radians. The distance of quaternions keeps its digits for small angles, which their
 /// product does not.
@@ -39,10 +47,11 @@ double first_difference(const std::map<std::pair<int, int>, double>& seen,
 
 double size_of_bodies(const scenes::Simulation& simulation) {
   double sum = 0, count = 0;
-  for (const btCollisionObject* const object : simulation.objects()) {
-    if (object->isStaticOrKinematicObject() || object->getCollisionShape() == nullptr) continue;
+  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
+    const btCollisionShape* const shape = simulation.objects()[i]->getCollisionShape();
+    if (!is_dynamic(simulation, i) || shape == nullptr) continue;
     btVector3 low, high;
-    object->getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+    shape->getAabb(btTransform::getIdentity(), low, high);
     sum += double{std::min({high.x() - low.x(), high.y() - low.y(), high.z() - low.z()})};
     count += 1;
   }
@@ -52,7 +61,7 @@ double size_of_bodies(const scenes::Simulation& simulation) {
 Frame frame_of(const scenes::Simulation& simulation) {
   Frame frame;
   for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
-    if (simulation.objects()[i]->isStaticOrKinematicObject()) continue;
+    if (!is_dynamic(simulation, i)) continue;
     const btTransform place = simulation.pose(i);
     frame.positions.push_back(place.getOrigin());
     frame.rotations.push_back(place.getRotation());
