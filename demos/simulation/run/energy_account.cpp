@@ -56,22 +56,27 @@ EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
     known_.push_back({inertia_of(body), thickness / 2, !instance.subject.trees.has_body(i)});
     if (turns_as_if_its_spin_stayed(instance, i)) spinners_.push_back(i);
   }
-  for (const Joint& joint : instance.expanded.joints)
-    if (std::holds_alternative<SpringJoint>(joint.value)) stretched_.emplace_back(0, 0, 0);
+  const std::vector<Joint>& joints = instance.expanded.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (const auto* const spring = std::get_if<SpringJoint>(&joints[i].value))
+      springs_.push_back({i, spring->stiffness, btVector3(0, 0, 0)});
+}
+
+/// Joints leave the world with either of their bodies.
+bool EnergyAccount::is_in_world(const Spring& spring) const {
+  const Joint& joint = instance_.expanded.joints[spring.joint];
+  return instance_.bodies[joint.a]->isInWorld() && (!joint.b || instance_.bodies[*joint.b]->isInWorld());
 }
 
 // A step of the engine takes the force of a spring where the step begins, and moves bodies with the velocity at its
 // end. What such steps keep is the product of the stretch before and after, not the square of either.
 double EnergyAccount::springs() {
   double sum = 0;
-  std::size_t next = 0;
-  const auto& joints = instance_.expanded.joints;
-  for (std::size_t i = 0; next < stretched_.size(); ++i) {
-    const auto* const spring = std::get_if<SpringJoint>(&joints[i].value);
-    if (spring == nullptr) continue;
-    const btVector3 now = stretch(*instance_.joints[i]);
-    sum += spring->stiffness * dot(now, is_running_ ? stretched_[next] : now) / 2;
-    stretched_[next++] = now;
+  for (Spring& spring : springs_) {
+    const btVector3 now = is_in_world(spring) ? stretch(*instance_.joints[spring.joint]) : btVector3(0, 0, 0);
+    spring.energy = spring.stiffness * dot(now, is_running_ ? spring.stretch : now) / 2;
+    spring.stretch = now;
+    sum += spring.energy;
   }
   return sum;
 }
@@ -115,6 +120,14 @@ void EnergyAccount::settle() {
     energy_ += change;
     balance_.work.other += change;
     mass_ += known_[each.body].inertia.mass * (int{counts(*instance_.bodies[each.body])} - int{each.counted});
+  }
+  for (Spring& spring : springs_) {
+    if (is_in_world(spring)) continue;
+    spring_energy_ -= spring.energy;
+    energy_ -= spring.energy;
+    balance_.work.other -= spring.energy;
+    spring.energy = 0;
+    spring.stretch.setZero();
   }
   between_.clear();
 }

@@ -107,11 +107,19 @@ class EnergyAccount {
     btVector3 force, torque, velocity, spin;
   };
 
+  struct Spring {
+    std::size_t joint;
+    double stiffness;   // N/m
+    btVector3 stretch;  // at the last look; 0 of what is not in the world
+    double energy = 0;  // joules, likewise
+  };
+
   double look_at(std::size_t body);
   void look_at_all();
   /// A look at all in the middle of the account.
   void look_back();
   void settle();
+  bool is_in_world(const Spring& spring) const;
   double springs();
   double in_world() const;
   void note_gain(double energy, double share);
@@ -123,7 +131,7 @@ class EnergyAccount {
   std::vector<Acted> between_;         // since bodies moved
   std::vector<double> reckoned_;       // energy of each before a look at all
   std::vector<std::size_t> spinners_;  // that Bullet turns as if their spin stayed
-  std::vector<btVector3> stretched_;   // springs, at the last look
+  std::vector<Spring> springs_;
   std::vector<Pushed> pushed_;
   btVector3 gravity_{0, 0, 0};
   SolverWork work_before_;
