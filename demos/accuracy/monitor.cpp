@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <btBulletDynamicsCommon.h>
 
+#include "formats/scene_model/expand.hpp"
+#include "simulation/effects/effects.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -43,10 +46,27 @@ double relative(const double (&now)[3], const double (&first)[3]) {
   return change / std::hypot(first[0], first[1], first[2]);
 }
 
-/// What falling through the whole scene, on top of the speeds at the start, comes to; infinite where other forces act.
+bool is_kinematic_and_moves(const scenes::Body& body) {
+  return body.traits.type == scenes::BodyType::kinematic &&
+         (body.velocity != scenes::Vec3{} || body.spin != scenes::Vec3{});
+}
+
+/// Whether something else than gravity makes bodies fast: those that move as prescribed, machines, fields.
+bool is_driven(const Simulation& simulation) {
+  const scenes::Scene& scene = simulation.scene();
+  const auto& bodies = simulation.expanded().bodies;
+  const effects::Effect* const drivers[] = {&effects::motors, &effects::conveyors, &effects::vehicles,
+                                            &effects::characters};
+  return scene.world.tumbling || !scene.fields.empty() ||
+         std::any_of(bodies.begin(), bodies.end(), is_kinematic_and_moves) ||
+         std::any_of(std::begin(drivers), std::end(drivers),
+                     [&](const effects::Effect* driver) { return effects::is_on(simulation.plan(), *driver); });
+}
+
+/// What falling through the whole scene, on top of the speeds at the start, comes to; infinite where bodies are driven.
 double natural_speed(Simulation& simulation) {
   const scenes::Scene& scene = simulation.scene();
-  if (scene.world.tumbling || !scene.fields.empty()) return std::numeric_limits<double>::infinity();
+  if (is_driven(simulation)) return std::numeric_limits<double>::infinity();
   const scenes::Bounds& bounds = scene.world.bounds;
   const double way =
       std::hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]);

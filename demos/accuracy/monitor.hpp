@@ -39,6 +39,7 @@ class Monitor {
   double height_loss() const;
 
   /// Whether a body is ten times as fast as one that fell through the whole scene could be; then numbers are void.
+  /// Never where something else drives bodies: fields, motors, kinematic bodies, conveyors, vehicles, characters.
   bool has_exploded() const;
 
  private:

@@ -185,6 +185,30 @@ TEST(Monitor, WhatWindBlowsAwayDoesNotExplode) {
   EXPECT_GT(row.series[0].last, 1) << "ten times as fast as at the start";
 }
 
+TEST(Monitor, WhatABatHitsDoesNotExplode) {
+  // It parts from the bat as fast as they met, 1.52 m/s on top of the bat's 1.5 m/s: more than ten times its own speed.
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0.25, 0, 0], "velocity": [-0.02, 0, 0],
+      "material": "steel", "sleep": false},
+    {"shape": "floor", "type": "kinematic", "position": [-5.5, 0, 0], "velocity": [1.5, 0, 0], "material": "steel"}])",
+                        {0, 0, 0}, 1.0 / 64, 48);
+  scene["materials"] = json::parse(R"({"steel": {"friction": 0, "restitution": 1}})");
+  scene["solver"]["bounces"] = "on_contact";
+  const Row row = rows_of(request_of(scene, {"max_speed.last"})).at(0);
+  EXPECT_EQ(row.failure, "");
+  EXPECT_NEAR(row.series[0].last, 2 * 1.5 + 0.02, 1e-3);
+}
+
+TEST(Monitor, WhatAMotorDrivesDoesNotExplode) {
+  json scene =
+      scene_of(R"([{"name": "arm", "shape": "ball", "mass": 1, "position": [2, 0, 0]}])", {0, 0, 0}, 1.0 / 64, 64);
+  scene["bodies"][0]["velocity"] = {0, 0.001, 0};
+  scene["joints"] = json::parse(R"([{"type": "hinge", "a": "arm", "pivot": [0, 0, 0], "axis": [0, 0, 1],
+    "motor": {"speed": 1, "max_force": 100}}])");
+  const Row row = rows_of(request_of(scene, {"max_speed.last"})).at(0);
+  EXPECT_EQ(row.failure, "");
+  EXPECT_NEAR(row.series[0].last, 2, 0.01) << "1 rad/s, 2 m from its hinge";
+}
+
 TEST(Monitor, SecondRunEndsWithTheSameBits) {
   const json scene = scene_of(R"([{"shape": "floor", "type": "static", "position": [0, -1, 0]},
     {"shape": "brick", "mass": 1, "position": [0, 4, 0], "spin": [1, 2, 3]}])",
