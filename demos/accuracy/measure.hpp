@@ -24,7 +24,8 @@ struct Measure {
     joint_error,              ///< m, the largest distance between the two ends of a joint that holds a point
     joint_angle,              ///< degrees, the largest angle between the two axes of a hinge, or sides of a fixed joint
     mean_square_penetration,  ///< m^2, over all contact points, of which some may not be deep at all
-    height_loss,              ///< of the top of the dynamic bodies, as a share of its height over their lowest point
+    height_loss,              ///< of the top of the dynamic bodies, as a share of its height over their lowest point;
+                              ///< up is against gravity
     tunnelled,                ///< share of the dynamic bodies whose centre is out of the scene's bounds
     collapse_time,            ///< s, until a tenth of the height is lost; the whole run if it never is
     stands,                   ///< 1 if it never is, else 0: `collapse_time` is then a lower bound

@@ -2,6 +2,7 @@
 #include "monitor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -10,6 +11,7 @@
 
 #include "formats/scene_model/expand.hpp"
 #include "simulation/effects/effects.hpp"
+#include "simulation/engine/convert.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -35,10 +37,11 @@ std::size_t count_dynamic(const Simulation& simulation) {
   return count;
 }
 
-double height(const btRigidBody& body, bool top) {
-  btVector3 low, high;
-  body.getAabb(low, high);
-  return top ? high.y() : low.y();
+/// Turns the world so that gravity pulls along -y; nothing where it pulls nowhere, or everywhere in turn.
+btTransform upright(const scenes::WorldSettings& world) {
+  const btVector3 up = -scenes::vector(world.gravity);
+  if (world.tumbling || up.isZero()) return btTransform::getIdentity();
+  return btTransform(shortestArcQuat(up.normalized(), btVector3(0, 1, 0)));
 }
 
 double relative(const double (&now)[3], const double (&first)[3]) {
@@ -94,10 +97,18 @@ Monitor::Monitor(Simulation& simulation)
     : simulation_(simulation),
       first_(momenta()),
       first_energy_(simulation.metric(Check::Metric::energy)),
+      upright_(upright(simulation.scene().world)),
       first_top_(top()),
       base_(std::numeric_limits<double>::infinity()),
       speed_limit_(10 * natural_speed(simulation)) {
-  for_each_dynamic(simulation, [&](const btRigidBody& body) { base_ = std::min(base_, height(body, false)); });
+  for_each_dynamic(simulation, [&](const btRigidBody& body) { base_ = std::min(base_, heights(body)[0]); });
+}
+
+/// Against gravity, of its lowest and its highest point.
+std::array<double, 2> Monitor::heights(const btRigidBody& body) const {
+  btVector3 low, high;
+  body.getCollisionShape()->getAabb(upright_ * body.getWorldTransform(), low, high);
+  return {low.y(), high.y()};
 }
 
 Monitor::Momenta Monitor::momenta() const {
@@ -124,7 +135,7 @@ Monitor::Momenta Monitor::momenta() const {
 
 double Monitor::top() const {
   double highest = -std::numeric_limits<double>::infinity();
-  for_each_dynamic(simulation_, [&](const btRigidBody& body) { highest = std::max(highest, height(body, true)); });
+  for_each_dynamic(simulation_, [&](const btRigidBody& body) { highest = std::max(highest, heights(body)[1]); });
   return highest;
 }
 

@@ -87,6 +87,22 @@ TEST(Monitor, HeightLossOfAFallAndWhenItIsATenth) {
   EXPECT_EQ(standing.series[1].last, 1);
 }
 
+TEST(Monitor, HeightIsMeasuredAgainstGravity) {
+  // Along z both fall by 6 n (n + 1) / 2 h^2, from a height of 4 m. Along y their extent grows.
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0], "velocity": [0, 6, 0]},
+    {"shape": "ball", "mass": 1, "position": [3, 0, 3]}])",
+                        {0, 0, -6}, 1.0 / 64, 32);
+  const auto fallen = [](int n) { return 3.0 * n * (n + 1) / 64 / 64; };
+  const Row row = rows_of(request_of(scene, {"height_loss", "stands"})).at(0);
+  EXPECT_NEAR(row.series[0].worst, fallen(32) / 4, 1e-5);
+  EXPECT_EQ(row.series[1].last, 0);
+  // The same fall aslant, by 3 to 4 to the axes.
+  scene["world"]["gravity"] = {0, -3.6, -4.8};
+  scene["bodies"][0]["velocity"] = {0, 0, 0};
+  scene["bodies"][1]["position"] = {3, 1.8, 2.4};
+  EXPECT_NEAR(rows_of(request_of(scene, {"height_loss"})).at(0).series[0].last, fallen(32) / 4, 1e-5);
+}
+
 TEST(Monitor, PenetrationThatNothingMends) {
   json scene = scene_of(R"([{"shape": "floor", "type": "static", "position": [0, -1, 0]},
     {"shape": "ball", "mass": 1, "position": [0, 0.375, 0], "sleep": false}])",
