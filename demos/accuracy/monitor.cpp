@@ -13,6 +13,7 @@
 #include "simulation/effects/effects.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/run/simulation.hpp"
+#include "usual_knobs.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -29,12 +30,6 @@ void for_each_dynamic(const Simulation& simulation, Visit visit) {
     if (const btRigidBody* const body = btRigidBody::upcast(object);
         body != nullptr && !body->isStaticOrKinematicObject() && body->isInWorld())
       visit(*body);
-}
-
-std::size_t count_dynamic(const Simulation& simulation) {
-  std::size_t count = 0;
-  for_each_dynamic(simulation, [&](const btRigidBody&) { ++count; });
-  return count;
 }
 
 /// Turns the world so that gravity pulls along -y; nothing where it pulls nowhere, or everywhere in turn.
@@ -172,7 +167,7 @@ double Monitor::value(const Measure& measure, std::optional<std::size_t> body, s
     case Measure::Kind::height_loss:
       return height_loss();
     case Measure::Kind::tunnelled:
-      return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_));
+      return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_.expanded()));
     default:
       return nan;
   }

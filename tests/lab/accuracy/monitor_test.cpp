@@ -129,6 +129,18 @@ TEST(Monitor, TunnelledIsTheShareOutOfBounds) {
   EXPECT_NEAR(tunnelled.mean, 0.25 * (64 - 28) / 64, 1e-12);
 }
 
+TEST(Monitor, TunnelledIsAShareOfAllThatTheSceneHas) {
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0], "velocity": [0, 0, 20]},
+    {"shape": "ball", "mass": 1, "position": [3, 0, 0], "velocity": [0, 0, -20]},
+    {"shape": "ball", "mass": 1, "position": [-3, 0, 0]}, {"shape": "ball", "mass": 1, "position": [6, 0, 0]},
+    {"shape": "ball", "mass": 1, "position": [-6, 0, 0]}])",
+                        {0, 0, 0}, 1.0 / 64, 32);
+  scene["world"]["on_leave"] = "remove";
+  EXPECT_EQ(rows_of(request_of(scene, {"tunnelled"})).at(0).series[0].last, 0.4) << "of 5, though 3 are left";
+  for (json& body : scene["bodies"]) body["velocity"] = {0, 0, 20};
+  EXPECT_EQ(rows_of(request_of(scene, {"tunnelled"})).at(0).series[0].last, 1);
+}
+
 TEST(Monitor, BallsThatJumpOverAPlateTunnel) {
   json scene = scene_of("[]", {0, 0, 0}, 1.0 / 64, 20);
   scene["shapes"].push_back(json::parse(R"({"name": "plate", "type": "box", "half_extents": [9, 0.0625, 9]})"));
