@@ -20,7 +20,7 @@ struct Measure {
     metric,                   ///< one of scenes::metric_names(), after each step
     momentum_drift,           ///< |P - P at the start| / |P at the start|, of all dynamic bodies
     angular_momentum_drift,   ///< the same of the angular momentum about the origin
-    energy_change,            ///< (E - E at the start) / max(|E at the start|, 1 J): its sign says where energy went
+    energy_change,            ///< `energy_drift` with its sign, which says where energy went
     joint_error,              ///< m, the largest distance between the two ends of a joint that holds a point
     joint_angle,              ///< degrees, the largest angle between the two axes of a hinge, or sides of a fixed joint
     mean_square_penetration,  ///< m^2, over all contact points, of which some may not be deep at all

@@ -92,6 +92,7 @@ Monitor::Monitor(Simulation& simulation)
     : simulation_(simulation),
       first_(momenta()),
       first_energy_(simulation.metric(Check::Metric::energy)),
+      energy_scale_(simulation.energy_scale()),
       upright_(upright(simulation.scene().world)),
       first_top_(top()),
       base_(std::numeric_limits<double>::infinity()),
@@ -157,7 +158,7 @@ double Monitor::value(const Measure& measure, std::optional<std::size_t> body, s
     case Measure::Kind::angular_momentum_drift:
       return relative(momenta().angular, first_.angular);
     case Measure::Kind::energy_change:
-      return (simulation_.metric(Check::Metric::energy) - first_energy_) / std::max(std::abs(first_energy_), 1.0);
+      return (simulation_.metric(Check::Metric::energy) - first_energy_) / energy_scale_;
     case Measure::Kind::joint_error:
       return joints(joint).distance;
     case Measure::Kind::joint_angle:

@@ -60,7 +60,7 @@ class Monitor {
 
   scenes::Simulation& simulation_;
   Momenta first_;
-  double first_energy_;
+  double first_energy_, energy_scale_;
   btTransform upright_;
   double first_top_, base_, speed_limit_;
 };

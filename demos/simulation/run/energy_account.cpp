@@ -26,6 +26,11 @@ btVector3 stretch(const btTypedConstraint& joint) {
          spring.getRigidBodyA().getCenterOfMassTransform() * spring.getFrameOffsetA().getOrigin();
 }
 
+/// Joints leave the world with either of their bodies.
+bool is_in_world(const effects::SceneInstance& instance, const Joint& joint) {
+  return instance.bodies[joint.a]->isInWorld() && (!joint.b || instance.bodies[*joint.b]->isInWorld());
+}
+
 /// Whether nothing keeps the energy of a body that spins freely.
 bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::size_t index) {
   const btVector3& moments = instance.bodies[index]->getInvInertiaDiagLocal();
@@ -42,6 +47,24 @@ bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::si
 double energy_of(const btRigidBody& body, const btVector3& gravity) {
   const Inertia inertia = inertia_of(body);
   return kinetic_energy(body, inertia) - inertia.mass * dot(gravity, body.getWorldTransform().getOrigin());
+}
+
+double energy_of_springs(const effects::SceneInstance& instance) {
+  double sum = 0;
+  const std::vector<Joint>& joints = instance.expanded.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (const auto* const spring = std::get_if<SpringJoint>(&joints[i].value);
+        spring != nullptr && is_in_world(instance, joints[i])) {
+      const btVector3 now = stretch(*instance.joints[i]);
+      sum += spring->stiffness * dot(now, now) / 2;
+    }
+  return sum;
+}
+
+double energy_in_world(const effects::SceneInstance& instance) {
+  EnergyAccount account(instance);
+  account.before_substep();
+  return account.balance().in_world;
 }
 
 EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
@@ -62,18 +85,13 @@ EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
       springs_.push_back({i, spring->stiffness, btVector3(0, 0, 0)});
 }
 
-/// Joints leave the world with either of their bodies.
-bool EnergyAccount::is_in_world(const Spring& spring) const {
-  const Joint& joint = instance_.expanded.joints[spring.joint];
-  return instance_.bodies[joint.a]->isInWorld() && (!joint.b || instance_.bodies[*joint.b]->isInWorld());
-}
-
 // A step of the engine takes the force of a spring where the step begins, and moves bodies with the velocity at its
 // end. What such steps keep is the product of the stretch before and after, not the square of either.
 double EnergyAccount::springs() {
   double sum = 0;
   for (Spring& spring : springs_) {
-    const btVector3 now = is_in_world(spring) ? stretch(*instance_.joints[spring.joint]) : btVector3(0, 0, 0);
+    const bool acts = is_in_world(instance_, instance_.expanded.joints[spring.joint]);
+    const btVector3 now = acts ? stretch(*instance_.joints[spring.joint]) : btVector3(0, 0, 0);
     spring.energy = spring.stiffness * dot(now, is_running_ ? spring.stretch : now) / 2;
     spring.stretch = now;
     sum += spring.energy;
@@ -122,7 +140,7 @@ void EnergyAccount::settle() {
     mass_ += known_[each.body].inertia.mass * (int{counts(*instance_.bodies[each.body])} - int{each.counted});
   }
   for (Spring& spring : springs_) {
-    if (is_in_world(spring)) continue;
+    if (is_in_world(instance_, instance_.expanded.joints[spring.joint])) continue;
     spring_energy_ -= spring.energy;
     energy_ -= spring.energy;
     balance_.work.other -= spring.energy;

@@ -21,6 +21,12 @@ namespace boxstream::scenes {
 /// origin: joules.
 double energy_of(const btRigidBody& body, const btVector3& gravity);
 
+/// Of springs that are in the world, as they are drawn out now: joules.
+double energy_of_springs(const effects::SceneInstance& instance);
+
+/// EnergyBalance::in_world of a world as it is now, between two steps: never 0 where a dynamic body is in the world.
+double energy_in_world(const effects::SceneInstance& instance);
+
 /// Energy that came into a world from outside: joules.
 struct Work {
   double fields = 0;    ///< forces on bodies: wind, drag, buoyancy, vortices
@@ -119,7 +125,6 @@ class EnergyAccount {
   /// A look at all in the middle of the account.
   void look_back();
   void settle();
-  bool is_in_world(const Spring& spring) const;
   double springs();
   double in_world() const;
   void note_gain(double energy, double share);

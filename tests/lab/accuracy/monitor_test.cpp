@@ -68,6 +68,25 @@ TEST(Monitor, MomentumChangesByTheImpulseOfGravity) {
   EXPECT_NEAR(rows_of(request_of(scene, {"momentum_drift"})).at(0).series[0].last, 1, 1e-6);
 }
 
+TEST(Monitor, DriftOfAFewGramsIsAShareOfTheirEnergy) {
+  // Over its lowest point it has 0.002 * 8 * 0.5 J. A fall in steps of h ends with m g^2 t h / 2 too little.
+  const json scene = scene_of(R"([{"shape": "ball", "mass": 0.002, "position": [0, 0, 0]}])", {0, -8, 0}, 1.0 / 64, 16);
+  const Row row = rows_of(request_of(scene, {"energy_drift", "energy_change.last"})).at(0);
+  const double share = 8 * 0.25 / 64 / 2 / 0.5;
+  EXPECT_NEAR(row.series[0].worst, share, 1e-5);
+  EXPECT_NEAR(row.series[1].last, -share, 1e-5);
+}
+
+TEST(Monitor, EnergyOfSpringsIsNoDrift) {
+  json scene = scene_of(R"([{"name": "b", "shape": "ball", "mass": 2, "position": [0, 0, 0], "velocity": [0, 3, 0],
+    "sleep": false}])",
+                        {0, 0, 0}, 1.0 / 128, 256);
+  scene["joints"] = json::parse(R"([{"type": "spring", "a": "b", "pivot": [0, 0, 0], "stiffness": 50, "damping": 0}])");
+  const Row row = rows_of(request_of(scene, {"energy_drift"})).at(0);
+  // 5 rad/s: places and speeds of steps of h are half a step apart.
+  EXPECT_NEAR(row.series[0].worst, 5.0 / 128 / 2, 5e-4);
+}
+
 TEST(Monitor, HeightLossOfAFallAndWhenItIsATenth) {
   // The top is 3.5 m over the lowest point; h = 1/64 s, 8 n (n + 1) / 2 h^2 fallen after n steps.
   const json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0]},
