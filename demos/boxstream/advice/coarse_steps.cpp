@@ -188,9 +188,11 @@ Found bounce(const Given& given) {
       "\"solver\": {\"bounces\": \"on_contact\"} gets it right within a hundredth", "bounce_0.5"};
 }
 
+/// Of what gravity alone slows down: damping and fields leave no height to compare with.
 Found thrown(const Given& given) {
-  if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
-  const scenes::Vec3& g = given.subject.scene.world.gravity;
+  const scenes::Scene& scene = given.subject.scene;
+  if (given.gravity == 0 || scene.world.tumbling || !scene.fields.empty()) return std::nullopt;
+  const scenes::Vec3& g = scene.world.gravity;
   const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
   std::vector<bool> joined(given.bodies.size());
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
@@ -198,7 +200,7 @@ Found thrown(const Given& given) {
     if (joint.b) joined[*joint.b] = true;
   }
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
-    if (joined[i]) continue;
+    if (joined[i] || given.bodies[i].traits.linear_damping > 0) continue;
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
     // What rises by less than it is thick hops, and is not thrown.

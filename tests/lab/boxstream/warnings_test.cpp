@@ -137,6 +137,37 @@ TEST(Warnings, NameWhatFliesDeepIntoAFixedBox) {
   EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "radius\\\": 0.45"));
 }
 
+// After 79 m a cube moves by 2 m in a step. With damping it never moves by more than 0.33 m.
+TEST(Warnings, OfLandingsReckonWithDamping) {
+  const ScratchDirectory directory;
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 1}, {"ccd", false}, {"position", {0, 79.7, 0}}},
+                         {{"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}});
+  scene["time"] = {{"dt", 0.05}, {"steps", 400}};
+  scene["world"]["bounds"] = {{"min", {-90, -90, -90}}, {"max", {90, 90, 90}}};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"],
+                   "body 0 moves by 2 m in the step in which it meets body 1: it comes 1.8 m deep, 180 %"));
+  scene["bodies"][0]["linear_damping"] = 0.8;
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "deep"));
+  // 0.1^0.05 of 40 m/s is left of it in the step in which it lands.
+  scene["bodies"][0]["linear_damping"] = 0.9;
+  scene["bodies"][0]["position"] = {0, 0.7, 0};
+  scene["bodies"][0]["velocity"] = {0, -40, 0};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "body 0 moves by 1.8 m in the step"));
+}
+
+TEST(Warnings, OfThrowsAreOfWhatGravityAloneSlowsDown) {
+  const ScratchDirectory directory;
+  json scene =
+      scene_of({{{"shape", "cube"}, {"mass", 1}, {"position", {0, 0, 0}}, {"velocity", {0, 4, 0}}, {"sleep", false}}});
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"],
+                   "a body is thrown up at 4 m/s: it rises 2.5 % less high, by half of what it moves in a step"));
+  scene["bodies"][0]["linear_damping"] = 0.3;
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "thrown"));
+  scene["bodies"][0]["linear_damping"] = 0;
+  scene["fields"] = {{{"type", "drag"}, {"linear", 0.01}}};
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "thrown"));
+}
+
 TEST(Warnings, NameWhatIsPutToRestThoughItWouldFlyOn) {
   const ScratchDirectory directory;
   json scene = scene_of(
