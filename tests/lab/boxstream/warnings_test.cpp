@@ -182,6 +182,46 @@ TEST(Warnings, NameWhatIsPutToRestThoughItWouldFlyOn) {
   EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
 }
 
+TEST(Warnings, NameWhatIsPutToRestInTheMiddleOfItsMotion) {
+  const ScratchDirectory directory;
+  const auto warnings = [&](const json& scene) { return warnings_of(directory, scene)["warnings"]; };
+  const std::string rest = "which is slow enough to be put to rest after 2 s";
+  // A fall of 0.35 m/s^2 comes to 0.7 m/s in 2 s. Steps of the warm-up count.
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 3}, {"position", {0, 5, 0}}}});
+  scene["world"]["gravity"] = {0, -0.35, 0};
+  scene["time"] = {{"dt", 0.01}, {"steps", 150}, {"warmup_steps", 100}};
+  EXPECT_TRUE(says(warnings(scene), "body 0 comes to 0.7 m/s and 0 rad/s at most, " + rest));
+  scene["world"]["gravity"] = {0, -0.45, 0};
+  EXPECT_EQ(warnings(scene), json::array());
+  // In oil it sinks at 3 * 10 / 60 m/s, however it began.
+  scene["world"]["gravity"] = {0, -10, 0};
+  scene["fields"] = {{{"type", "drag"}, {"linear", 60}}};
+  EXPECT_TRUE(says(warnings(scene), "body 0 comes to 0.5 m/s"));
+  scene["fields"][0]["linear"] = 30;
+  EXPECT_EQ(warnings(scene), json::array());
+  // A pendulum of 2 m that starts 0.2 rad from the vertical: 2 * sqrt(10 * 2) * sin(0.1) m/s.
+  scene.erase("fields");
+  scene["bodies"][0]["name"] = "bob";
+  scene["bodies"][0]["position"] = {2 * std::sin(0.2), 6 - 2 * std::cos(0.2), 0};
+  scene["joints"] = {{{"type", "hinge"}, {"a", "bob"}, {"pivot", {0, 6, 0}}, {"axis", {0, 0, 1}}}};
+  EXPECT_EQ(warnings(scene), json::array()) << "0.89 m/s";
+  scene["bodies"][0]["position"] = {2 * std::sin(0.1), 6 - 2 * std::cos(0.1), 0};
+  EXPECT_TRUE(says(warnings(scene), "comes to 0.45 m/s and 0.22 rad/s at most, " + rest));
+  scene["bodies"][0]["position"] = {0, 4, 0};
+  EXPECT_EQ(warnings(scene), json::array()) << "it hangs still";
+}
+
+TEST(Warnings, NameWhatSleepsWhereGravityTurnsSlowly) {
+  const ScratchDirectory directory;
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 3}, {"position", {0, 0.5, 0}}},
+                         {{"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}});
+  scene["time"]["steps"] = 400;
+  scene["world"]["gravity"] = {{"script", "tumble"}, {"strength", 10}, {"degrees_per_second", 15}};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["warnings"], "gravity, which turns, does not wake it"));
+  scene["world"]["gravity"]["degrees_per_second"] = 25;
+  EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
+}
+
 /// A rod of 4 m, 30 degrees from upright.
 json rod(const json& position) {
   return {{"name", "rod"},
