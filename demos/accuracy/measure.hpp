@@ -20,21 +20,22 @@ struct Measure {
     metric,                   ///< one of scenes::metric_names(), after each step
     momentum_drift,           ///< |P - P at the start| / |P at the start|, of all dynamic bodies
     angular_momentum_drift,   ///< the same of the angular momentum about the origin
-    energy_change,            ///< (E - E at the start) / max(|E at the start|, 1 J): its sign says where energy went
+    energy_change,            ///< `energy_drift` with its sign, which says where energy went
     joint_error,              ///< m, the largest distance between the two ends of a joint that holds a point
     joint_angle,              ///< degrees, the largest angle between the two axes of a hinge, or sides of a fixed joint
     mean_square_penetration,  ///< m^2, over all contact points, of which some may not be deep at all
-    height_loss,              ///< of the top of the dynamic bodies, as a share of its height over their lowest point
-    tunnelled,                ///< share of the dynamic bodies whose centre is out of the scene's bounds
-    collapse_time,            ///< s, until a tenth of the height is lost; the whole run if it never is
-    stands,                   ///< 1 if it never is, else 0: `collapse_time` is then a lower bound
-    trajectory,               ///< m, how far dynamic bodies are from where the reference has them (RMS)
-    orientation,              ///< degrees, by which they are turned from there (RMS)
-    agrees_for,               ///< s, until contacts differ from those of the reference by more than a step
-    trajectory_until,         ///< `trajectory`, only as long as they agree
-    velocity_error,           ///< |v - expected| / |expected|, of the body that the request names, at the end
-    direction_error,          ///< degrees, between these two velocities
-    body_x,                   ///< m, where the body that the request names is
+    height_loss,              ///< of the top of the dynamic bodies, as a share of its height over their lowest point;
+                              ///< up is against gravity
+    tunnelled,      ///< share of the dynamic bodies whose centre is out of the scene's bounds, also of those taken out
+    collapse_time,  ///< s, until a tenth of the height is lost; the whole run if it never is
+    stands,         ///< 1 if it never is, else 0: `collapse_time` is then a lower bound
+    trajectory,     ///< m, how far dynamic bodies are from where the reference has them (RMS)
+    orientation,    ///< degrees, by which they are turned from there (RMS)
+    agrees_for,     ///< s, until contacts differ from those of the reference by more than a step
+    trajectory_until,  ///< `trajectory`, only as long as they agree
+    velocity_error,    ///< |v - expected| / |expected|, of the body that the request names, at the end
+    direction_error,   ///< degrees, between these two velocities
+    body_x,            ///< m, where the body that the request names is
     body_y,
     body_z,
     body_speed,  ///< m/s, of that body

@@ -2,12 +2,18 @@
 #include "monitor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <btBulletDynamicsCommon.h>
 
+#include "formats/scene_model/expand.hpp"
+#include "simulation/effects/effects.hpp"
+#include "simulation/engine/convert.hpp"
 #include "simulation/run/simulation.hpp"
+#include "usual_knobs.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -26,16 +32,11 @@ void for_each_dynamic(const Simulation& simulation, Visit visit) {
       visit(*body);
 }
 
-std::size_t count_dynamic(const Simulation& simulation) {
-  std::size_t count = 0;
-  for_each_dynamic(simulation, [&](const btRigidBody&) { ++count; });
-  return count;
-}
-
-double height(const btRigidBody& body, bool top) {
-  btVector3 low, high;
-  body.getAabb(low, high);
-  return top ? high.y() : low.y();
+/// Turns the world so that gravity pulls along -y; nothing where it pulls nowhere, or everywhere in turn.
+btTransform upright(const scenes::WorldSettings& world) {
+  const btVector3 up = -scenes::vector(world.gravity);
+  if (world.tumbling || up.isZero()) return btTransform::getIdentity();
+  return btTransform(shortestArcQuat(up.normalized(), btVector3(0, 1, 0)));
 }
 
 double relative(const double (&now)[3], const double (&first)[3]) {
@@ -43,10 +44,27 @@ double relative(const double (&now)[3], const double (&first)[3]) {
   return change / std::hypot(first[0], first[1], first[2]);
 }
 
-/// What falling through the whole scene, on top of the speeds at the start, comes to; infinite where other forces act.
+bool is_kinematic_and_moves(const scenes::Body& body) {
+  return body.traits.type == scenes::BodyType::kinematic &&
+         (body.velocity != scenes::Vec3{} || body.spin != scenes::Vec3{});
+}
+
+/// Whether something else than gravity makes bodies fast: those that move as prescribed, machines, fields.
+bool is_driven(const Simulation& simulation) {
+  const scenes::Scene& scene = simulation.scene();
+  const auto& bodies = simulation.expanded().bodies;
+  const effects::Effect* const drivers[] = {&effects::motors, &effects::conveyors, &effects::vehicles,
+                                            &effects::characters};
+  return scene.world.tumbling || !scene.fields.empty() ||
+         std::any_of(bodies.begin(), bodies.end(), is_kinematic_and_moves) ||
+         std::any_of(std::begin(drivers), std::end(drivers),
+                     [&](const effects::Effect* driver) { return effects::is_on(simulation.plan(), *driver); });
+}
+
+/// What falling through the whole scene, on top of the speeds at the start, comes to; infinite where bodies are driven.
 double natural_speed(Simulation& simulation) {
   const scenes::Scene& scene = simulation.scene();
-  if (scene.world.tumbling || !scene.fields.empty()) return std::numeric_limits<double>::infinity();
+  if (is_driven(simulation)) return std::numeric_limits<double>::infinity();
   const scenes::Bounds& bounds = scene.world.bounds;
   const double way =
       std::hypot(bounds.max[0] - bounds.min[0], bounds.max[1] - bounds.min[1], bounds.max[2] - bounds.min[2]);
@@ -74,10 +92,19 @@ Monitor::Monitor(Simulation& simulation)
     : simulation_(simulation),
       first_(momenta()),
       first_energy_(simulation.metric(Check::Metric::energy)),
+      energy_scale_(simulation.energy_scale()),
+      upright_(upright(simulation.scene().world)),
       first_top_(top()),
       base_(std::numeric_limits<double>::infinity()),
       speed_limit_(10 * natural_speed(simulation)) {
-  for_each_dynamic(simulation, [&](const btRigidBody& body) { base_ = std::min(base_, height(body, false)); });
+  for_each_dynamic(simulation, [&](const btRigidBody& body) { base_ = std::min(base_, heights(body)[0]); });
+}
+
+/// Against gravity, of its lowest and its highest point.
+std::array<double, 2> Monitor::heights(const btRigidBody& body) const {
+  btVector3 low, high;
+  body.getCollisionShape()->getAabb(upright_ * body.getWorldTransform(), low, high);
+  return {low.y(), high.y()};
 }
 
 Monitor::Momenta Monitor::momenta() const {
@@ -104,7 +131,7 @@ Monitor::Momenta Monitor::momenta() const {
 
 double Monitor::top() const {
   double highest = -std::numeric_limits<double>::infinity();
-  for_each_dynamic(simulation_, [&](const btRigidBody& body) { highest = std::max(highest, height(body, true)); });
+  for_each_dynamic(simulation_, [&](const btRigidBody& body) { highest = std::max(highest, heights(body)[1]); });
   return highest;
 }
 
@@ -131,7 +158,7 @@ double Monitor::value(const Measure& measure, std::optional<std::size_t> body, s
     case Measure::Kind::angular_momentum_drift:
       return relative(momenta().angular, first_.angular);
     case Measure::Kind::energy_change:
-      return (simulation_.metric(Check::Metric::energy) - first_energy_) / std::max(std::abs(first_energy_), 1.0);
+      return (simulation_.metric(Check::Metric::energy) - first_energy_) / energy_scale_;
     case Measure::Kind::joint_error:
       return joints(joint).distance;
     case Measure::Kind::joint_angle:
@@ -141,7 +168,7 @@ double Monitor::value(const Measure& measure, std::optional<std::size_t> body, s
     case Measure::Kind::height_loss:
       return height_loss();
     case Measure::Kind::tunnelled:
-      return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_));
+      return static_cast<double>(simulation_.outside()) / static_cast<double>(count_dynamic(simulation_.expanded()));
     default:
       return nan;
   }

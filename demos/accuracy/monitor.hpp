@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
+#include <LinearMath/btTransform.h>
+
 #include "measure.hpp"
 #include "simulation/run/joint_error.hpp"
+
+class btRigidBody;
 
 namespace boxstream::scenes {
 class Simulation;
@@ -35,10 +40,12 @@ class Monitor {
   double value(const Measure& measure, std::optional<std::size_t> body = {},
                std::optional<std::size_t> joint = {}) const;
 
-  /// Of the top of the dynamic bodies, as a share of its height over their lowest point at the start.
+  /// Of the top of the dynamic bodies, as a share of its height over their lowest point at the start. Up is against
+  /// gravity; y where there is none, and where it tumbles.
   double height_loss() const;
 
   /// Whether a body is ten times as fast as one that fell through the whole scene could be; then numbers are void.
+  /// Never where something else drives bodies: fields, motors, kinematic bodies, conveyors, vehicles, characters.
   bool has_exploded() const;
 
  private:
@@ -46,13 +53,16 @@ class Monitor {
     double linear[3] = {}, angular[3] = {};
   };
   Momenta momenta() const;
+  std::array<double, 2> heights(const btRigidBody& body) const;
   double top() const;
   double of_body(Measure::Kind kind, std::size_t body) const;
   scenes::JointError joints(std::optional<std::size_t> joint) const;
 
   scenes::Simulation& simulation_;
   Momenta first_;
-  double first_energy_, first_top_, base_, speed_limit_;
+  double first_energy_, energy_scale_;
+  btTransform upright_;
+  double first_top_, base_, speed_limit_;
 };
 
 }  // namespace boxstream::accuracy

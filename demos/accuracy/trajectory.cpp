@@ -15,6 +15,13 @@
 namespace boxstream::accuracy {
 namespace {
 
+/// By what the scene says of bodies, and not by what they are now: one that is frozen on its way is one of them still.
+bool is_dynamic(const scenes::Simulation& simulation, std::size_t object) {
+  const std::vector<scenes::Body>& bodies = simulation.expanded().bodies;
+  return object < bodies.size() ? bodies[object].traits.type == scenes::BodyType::dynamic
+                                : !simulation.objects()[object]->isStaticOrKinematicObject();
+}
+
 /// Of two unit quaternions, in radians. The distance of quaternions keeps its digits for small angles, which their
 /// product does not.
 double turn(const btQuaternion& a, const btQuaternion& b) {
@@ -40,10 +47,11 @@ double first_difference(const std::map<std::pair<int, int>, double>& seen,
 
 double size_of_bodies(const scenes::Simulation& simulation) {
   double sum = 0, count = 0;
-  for (const btCollisionObject* const object : simulation.objects()) {
-    if (object->isStaticOrKinematicObject() || object->getCollisionShape() == nullptr) continue;
+  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
+    const btCollisionShape* const shape = simulation.objects()[i]->getCollisionShape();
+    if (!is_dynamic(simulation, i) || shape == nullptr) continue;
     btVector3 low, high;
-    object->getCollisionShape()->getAabb(btTransform::getIdentity(), low, high);
+    shape->getAabb(btTransform::getIdentity(), low, high);
     sum += double{std::min({high.x() - low.x(), high.y() - low.y(), high.z() - low.z()})};
     count += 1;
   }
@@ -51,13 +59,9 @@ double size_of_bodies(const scenes::Simulation& simulation) {
 }
 
 Frame frame_of(const scenes::Simulation& simulation) {
-  // By what the scene says, so that all frames have the same bodies: one that is frozen is static to Bullet.
-  const std::vector<scenes::Body>& bodies = simulation.expanded().bodies;
   Frame frame;
   for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
-    if (i < bodies.size() ? bodies[i].traits.type != scenes::BodyType::dynamic
-                          : simulation.objects()[i]->isStaticOrKinematicObject())
-      continue;
+    if (!is_dynamic(simulation, i)) continue;
     const btTransform place = simulation.pose(i);
     frame.positions.push_back(place.getOrigin());
     frame.rotations.push_back(place.getRotation());

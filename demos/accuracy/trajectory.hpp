@@ -15,7 +15,8 @@ class Simulation;
 
 namespace boxstream::accuracy {
 
-/// Where dynamic bodies are, in the order of the scene.
+/// Where dynamic bodies are, in the order of the scene: as many in each frame of a scene, also of what is frozen or
+/// taken out on its way.
 struct Frame {
   std::vector<btVector3> positions;
   std::vector<btQuaternion> rotations;

@@ -12,6 +12,8 @@
 #include "formats/scene_model/names.hpp"
 #include "simulation/effects/linked.hpp"
 #include "simulation/effects/tunnelling.hpp"
+#include "simulation/engine/bullet_shapes.hpp"
+#include "simulation/engine/mass.hpp"
 
 namespace boxstream::accuracy {
 namespace {
@@ -40,13 +42,13 @@ bool suits_multibodies(scenes::Scene scene, const scenes::Expanded& expanded) {
 bool wants_doubles(const scenes::Expanded& expanded) {
   constexpr double most_ratio = 1000, of_thickness = 0.0025;
   const std::vector<double> half = effects::half_thicknesses(expanded.shapes);
+  scenes::ShapeSet shapes(expanded.shapes);
   double lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
   for (const scenes::Body& body : expanded.bodies) {
     if (body.traits.type != scenes::BodyType::dynamic) continue;
-    if (body.traits.mass) {
-      lightest = std::min(lightest, *body.traits.mass);
-      heaviest = std::max(heaviest, *body.traits.mass);
-    }
+    const double mass = scenes::mass_of(body, shapes.solid(body.traits.shape)).mass;
+    lightest = std::min(lightest, mass);
+    heaviest = std::max(heaviest, mass);
     double far = 0;
     for (const double each : body.position) far = std::max(far, std::abs(each));
     const auto rounded = static_cast<float>(far);

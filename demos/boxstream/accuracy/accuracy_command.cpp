@@ -285,8 +285,8 @@ knobs: all combinations. Without a knob, and with --advise or --bound: solvers, 
 are worth trying on the scene, and, one at a time, precision, margin and step.
 
 Metrics are those of checks, "penetration", momentum_drift, angular_momentum_drift, energy_change (with its sign),
-joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss, tunnelled (share out of bounds),
-collapse_time (s, until a tenth of the height is lost), stands, repeatable; of --body x, y, z, speed, spin; and against
+joint_error (m), joint_angle (degrees), mean_square_penetration (m^2), height_loss (against gravity), tunnelled (share
+out of bounds), collapse_time (s, until a tenth of the height is lost), stands, repeatable; of --body x, y, z, speed, spin; and against
 the reference trajectory (m), orientation (degrees), agrees_for (s, until contacts differ), trajectory_until (m, until
 then). The worst of all steps counts, unless .p95, .mean, .last or .integral (over time) stands behind the name. Smaller
 is better, but for collapse_time, stands, agrees_for, repeatable and finite; energy_change is best near 0; of places,

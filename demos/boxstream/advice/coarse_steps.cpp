@@ -37,6 +37,7 @@ struct Given {
       : subject(whole),
         bodies(whole.expanded.bodies),
         masses(masses_of(whole)),
+        centres(centres_of(whole)),
         gravity(effects::strength_of_gravity(whole.scene.world)),
         step(whole.scene.time.dt / whole.scene.time.substeps),
         substeps(whole.scene.time.substeps) {}
@@ -52,6 +53,7 @@ struct Given {
   const Subject& subject;
   const std::vector<Body>& bodies;
   std::vector<double> masses;
+  std::vector<scenes::Vec3> centres;
   double gravity, step;
   int substeps;
 };
@@ -65,9 +67,9 @@ scenes::Vec3 across(const scenes::Vec3& v, const scenes::Vec3& axis) {
   return geometry::minus(v, geometry::times(axis, geometry::dot(v, axis)));
 }
 
-/// From a hinge to the centre of a body, across the axis.
-scenes::Vec3 arm_of(const Body& body, const scenes::HingeJoint& hinge) {
-  const scenes::Vec3 whole = geometry::minus(body.position, hinge.pivot), arm = across(whole, hinge.axis);
+/// From a hinge to the centre of mass of a body, across the axis.
+scenes::Vec3 arm_of(const scenes::Vec3& centre, const scenes::HingeJoint& hinge) {
+  const scenes::Vec3 whole = geometry::minus(centre, hinge.pivot), arm = across(whole, hinge.axis);
   return size_of(arm) > 1e-9 * size_of(whole) ? arm : scenes::Vec3{};  // or none, but for rounding
 }
 
@@ -87,7 +89,8 @@ Found swing(const Given& given) {
     const bool carries = joints[joint.a] == 2 && hinge != nullptr && !loop(given);
     if (joints[joint.a] != 1 && !carries) continue;
     const Body& body = given.bodies[joint.a];
-    const scenes::Vec3 arm = hinge != nullptr ? arm_of(body, *hinge) : geometry::minus(body.position, ball->pivot);
+    const scenes::Vec3& centre = given.centres[joint.a];
+    const scenes::Vec3 arm = hinge != nullptr ? arm_of(centre, *hinge) : geometry::minus(centre, ball->pivot);
     const double length = size_of(arm), speed = size_of(body.velocity);
     if (length == 0) continue;
     const scenes::Vec3& pull = given.subject.scene.world.gravity;
@@ -161,7 +164,7 @@ Found loop(const Given& given) {
     if (hinge == nullptr) continue;
     for (const std::size_t i : {low, high}) {
       if (i == world) continue;
-      const double arm = size_of(arm_of(given.bodies[i], *hinge));
+      const double arm = size_of(arm_of(given.centres[i], *hinge));
       rate = std::max({rate, size_of(given.bodies[i].spin), arm > 0 ? std::sqrt(given.gravity / arm) : 0});
     }
   }
@@ -185,9 +188,11 @@ Found bounce(const Given& given) {
       "\"solver\": {\"bounces\": \"on_contact\"} gets it right within a hundredth", "bounce_0.5"};
 }
 
+/// Of what gravity alone slows down: damping and fields leave no height to compare with.
 Found thrown(const Given& given) {
-  if (given.gravity == 0 || given.subject.scene.world.tumbling) return std::nullopt;
-  const scenes::Vec3& g = given.subject.scene.world.gravity;
+  const scenes::Scene& scene = given.subject.scene;
+  if (given.gravity == 0 || scene.world.tumbling || !scene.fields.empty()) return std::nullopt;
+  const scenes::Vec3& g = scene.world.gravity;
   const std::vector<double> half = effects::half_thicknesses(given.subject.expanded.shapes);
   std::vector<bool> joined(given.bodies.size());
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
@@ -195,7 +200,7 @@ Found thrown(const Given& given) {
     if (joint.b) joined[*joint.b] = true;
   }
   for (std::size_t i = 0; i < given.bodies.size(); ++i) {
-    if (joined[i]) continue;
+    if (joined[i] || given.bodies[i].traits.linear_damping > 0) continue;
     const double up = -dot(g, given.bodies[i].velocity) / given.gravity;
     const double share = up > 0 ? given.gravity * given.step / up : 0;
     // What rises by less than it is thick hops, and is not thrown.
@@ -333,7 +338,7 @@ Found weak_motor(const Given& given) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     if (hinge == nullptr || !hinge->motor || hinge->motor->speed != 0 || !given.moves_by_rows(joint.a)) continue;
     const scenes::Vec3 pull = across(given.subject.scene.world.gravity, hinge->axis);
-    const double taken = size_of(geometry::cross(arm_of(given.bodies[joint.a], *hinge), pull)) * given.masses[joint.a];
+    const double taken = size_of(geometry::cross(arm_of(given.centres[joint.a], *hinge), pull)) * given.masses[joint.a];
     if (taken == 0 || hinge->motor->max_force < taken || hinge->motor->max_force > 1.3 * taken) continue;
     return CoarseStep{fmt::format("a motor that holds a weight with {:.3g} of the torque that it takes: it gives",
                                   hinge->motor->max_force / taken),
@@ -348,7 +353,7 @@ Found fast_motor(const Given& given) {
   for (const scenes::Joint& joint : given.subject.expanded.joints) {
     const auto* const hinge = std::get_if<scenes::HingeJoint>(&joint.value);
     if (hinge == nullptr || !hinge->motor || !hinge->motor->acts() || !given.moves_by_rows(joint.a)) continue;
-    const double arm = size_of(arm_of(given.bodies[joint.a], *hinge));
+    const double arm = size_of(arm_of(given.centres[joint.a], *hinge));
     const double turn = std::abs(hinge->motor->speed) * given.step;
     if (arm == 0 || turn <= most) continue;
     return CoarseStep{

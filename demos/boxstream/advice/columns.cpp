@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "boxstream/advice/reaching.hpp"
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
@@ -183,7 +184,8 @@ std::vector<Lean> leans_of(const Subject& subject, const std::vector<double>& ma
   std::vector<scenes::Vec3> moment(bodies.size());
   std::vector<std::size_t> count(bodies.size(), 1);
   std::vector<bool> shared(bodies.size());  // something of what it bears stands on others as well
-  for (std::size_t i = 0; i < bodies.size(); ++i) moment[i] = scenes::times(bodies[i].position, masses[i]);
+  const std::vector<scenes::Vec3> centres = centres_of(subject);
+  for (std::size_t i = 0; i < bodies.size(); ++i) moment[i] = scenes::times(centres[i], masses[i]);
   std::vector<Lean> found;
   for (const std::size_t i : order) {
     if (bearers.of[i].size() != 1 || shared[i]) {

@@ -16,10 +16,12 @@
 #include "formats/geometry/frame.hpp"
 #include "formats/scene_model/names.hpp"
 #include "simulation/effects/find.hpp"
+#include "simulation/effects/shape_size.hpp"
 #include "simulation/effects/springs.hpp"
 #include "simulation/effects/tunnelling.hpp"
 #include "simulation/engine/bullet_shapes.hpp"
 #include "simulation/engine/convert.hpp"
+#include "simulation/engine/mass.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -194,15 +196,16 @@ void find_mass_ratio(const Subject& subject, const std::vector<double>& masses, 
 
 /// Whether all that joints hold hangs straight down at rest.
 bool hangs(const Subject& subject, const Weight& weight) {
-  const std::vector<Body>& bodies = subject.expanded.bodies;
-  const auto is_below = [&](const Body& body, const scenes::Vec3& pivot) {
+  const std::vector<scenes::Vec3> centres = centres_of(subject);
+  const auto is_below = [&](std::size_t index, const scenes::Vec3& pivot) {
+    const Body& body = subject.expanded.bodies[index];
     if (!effects::is_dynamic(body)) return true;
-    const scenes::Vec3 arm = geometry::minus(body.position, pivot), aside = geometry::cross(arm, weight.up);
+    const scenes::Vec3 arm = geometry::minus(centres[index], pivot), aside = geometry::cross(arm, weight.up);
     return body.velocity == scenes::Vec3{} && body.spin == scenes::Vec3{} && dot(aside, aside) <= 1e-4 * dot(arm, arm);
   };
   return std::all_of(subject.expanded.joints.begin(), subject.expanded.joints.end(), [&](const scenes::Joint& joint) {
     const scenes::Vec3 pivot = std::visit([](const auto& value) { return value.pivot; }, joint.value);
-    return is_below(bodies[joint.a], pivot) && (!joint.b || is_below(bodies[*joint.b], pivot));
+    return is_below(joint.a, pivot) && (!joint.b || is_below(*joint.b, pivot));
   });
 }
 
@@ -300,6 +303,21 @@ std::vector<double> masses_of(const Subject& subject) {
                                                 : *traits.density * shapes.solid(traits.shape).volume);
   }
   return masses;
+}
+
+std::vector<scenes::Vec3> centres_of(const Subject& subject) {
+  constexpr double rounding = 1e-6;  // of the size of a body: points of files have few digits
+  scenes::ShapeSet shapes(subject.expanded.shapes);
+  std::vector<scenes::Vec3> centres;
+  for (const Body& body : subject.expanded.bodies) {
+    centres.push_back(body.position);
+    if (!effects::is_dynamic(body)) continue;
+    const std::size_t shape = body.traits.shape;
+    const scenes::Vec3 aside = scenes::mass_of(body, shapes.solid(shape)).frame.origin;
+    if (std::sqrt(dot(aside, aside)) > rounding * effects::size_of(subject.expanded.shapes, shape).largest)
+      centres.back() = geometry::plus(body.position, geometry::turned(body.rotation, aside));
+  }
+  return centres;
 }
 
 std::vector<HardCase> hard_cases(const scenes::Scene& scene) {

@@ -92,8 +92,9 @@ class Flights {
     const Body& body = subject_.expanded.bodies[i];
     Box box = boxes_[i];
     Vec3 velocity = body.velocity;
+    const double kept = std::pow(1 - body.traits.linear_damping, step_);  // of it in a step
     for (std::uint64_t k = 0; k < std::min(steps_, most_steps); ++k) {
-      velocity = geometry::plus(velocity, scenes::times(subject_.scene.world.gravity, step_));
+      velocity = geometry::plus(scenes::times(velocity, kept), scenes::times(subject_.scene.world.gravity, step_));
       const Vec3 motion = scenes::times(velocity, step_);
       std::optional<Entry> first;
       std::size_t hit = 0;

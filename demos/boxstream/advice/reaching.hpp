@@ -12,6 +12,9 @@ namespace boxstream::tool {
 /// Of each body, in kg; 0 of what is not dynamic. Throws SceneError for a shape that cannot be built.
 std::vector<double> masses_of(const effects::Subject& subject);
 
+/// Where the centre of mass of each body is at the start; of what is not dynamic, its place. Throws likewise.
+std::vector<scenes::Vec3> centres_of(const effects::Subject& subject);
+
 /// Where the bodies of a scene are at the start, and what they may come to.
 class Reaching {
  public:

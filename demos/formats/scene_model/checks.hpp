@@ -14,8 +14,8 @@ struct Check {
     finite,           // 1 if every coordinate and velocity is finite, else 0
     outside,          // dynamic bodies whose centre is out of bounds
     max_penetration,  // metres, deepest contact
-    energy,           // J, kinetic and potential, of all dynamic bodies
-    energy_drift,     // |energy - energy at the start| / max(|energy at the start|, 1 J)
+    energy,           // J, kinetic and potential, of all dynamic bodies and springs
+    energy_drift,     // |energy - energy at the start| / Simulation::energy_scale() at the start
     momentum,         // kg m/s
     max_speed,        // m/s
     residual,         // the solver's, largest squared change of an impulse in its last iteration

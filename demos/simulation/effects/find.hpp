@@ -80,6 +80,17 @@ std::optional<Call> first_joint(const Subject& subject, Reason reason) {
   return std::nullopt;
 }
 
+/// Whether a joint moves bodies by itself, as slowly as it likes: a spring, or a motor that turns or pushes.
+inline bool drives(const scenes::Joint& joint) {
+  const auto has_motor = [](const auto& value) {
+    if constexpr (requires { value.motor; })
+      return value.motor && value.motor->acts() && value.motor->speed != 0;
+    else
+      return false;
+  };
+  return std::holds_alternative<scenes::SpringJoint>(joint.value) || std::visit(has_motor, joint.value);
+}
+
 /// The first element of a block, if it has any.
 template <class T>
 std::optional<Call> first_of(const std::vector<T>& block, const char* pointer, const char* reason) {

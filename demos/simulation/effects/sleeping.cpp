@@ -37,6 +37,18 @@ void configure_sleeping(const Subject& subject, const Body& description, btRigid
                                body.getAngularSleepingThreshold());
 }
 
+/// What a spring or a motor moves at less than Bullet's limits is not at rest.
+void start_sleeping(SceneInstance& instance) {
+  const auto keep_awake = [&](std::size_t body) {
+    if (is_dynamic(instance.expanded.bodies[body])) instance.bodies[body]->forceActivationState(DISABLE_DEACTIVATION);
+  };
+  for (const Joint& joint : instance.expanded.joints) {
+    if (!drives(joint)) continue;
+    keep_awake(joint.a);
+    if (joint.b) keep_awake(*joint.b);
+  }
+}
+
 std::uint64_t count_asleep(const SceneInstance& instance) {
   return static_cast<std::uint64_t>(std::count_if(instance.bodies.begin(), instance.bodies.end(), [](const auto& body) {
     return !body->isStaticOrKinematicObject() && body->isInWorld() && !body->isActive();
@@ -49,7 +61,7 @@ const Effect sleeping{"sleeping",
                       "bodies at rest are left alone until something moves them",
                       "updateActivationState; sleeping bodies keep their boxes",
                       calls_for_sleeping,
-                      {.prepare = prepare_sleeping, .configure_body = configure_sleeping},
+                      {.prepare = prepare_sleeping, .configure_body = configure_sleeping, .start = start_sleeping},
                       {"sleeping bodies", count_asleep}};
 
 }  // namespace boxstream::effects

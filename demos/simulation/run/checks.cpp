@@ -33,6 +33,7 @@ void ask(const Simulation& simulation, const Check& check, CheckResult& result) 
 
 void Simulation::Impl::begin_checks() {
   first_energy = self.metric(Check::Metric::energy);
+  energy_scale = self.energy_scale();
   world.solver().take_residual();
   check_results.resize(scene.checks.size());
   for (std::size_t i = 0; i < check_results.size(); ++i) {

@@ -26,6 +26,11 @@ btVector3 stretch(const btTypedConstraint& joint) {
          spring.getRigidBodyA().getCenterOfMassTransform() * spring.getFrameOffsetA().getOrigin();
 }
 
+/// Joints leave the world with either of their bodies.
+bool is_in_world(const effects::SceneInstance& instance, const Joint& joint) {
+  return instance.bodies[joint.a]->isInWorld() && (!joint.b || instance.bodies[*joint.b]->isInWorld());
+}
+
 /// Whether nothing keeps the energy of a body that spins freely.
 bool turns_as_if_its_spin_stayed(const effects::SceneInstance& instance, std::size_t index) {
   const btVector3& moments = instance.bodies[index]->getInvInertiaDiagLocal();
@@ -44,6 +49,24 @@ double energy_of(const btRigidBody& body, const btVector3& gravity) {
   return kinetic_energy(body, inertia) - inertia.mass * dot(gravity, body.getWorldTransform().getOrigin());
 }
 
+double energy_of_springs(const effects::SceneInstance& instance) {
+  double sum = 0;
+  const std::vector<Joint>& joints = instance.expanded.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (const auto* const spring = std::get_if<SpringJoint>(&joints[i].value);
+        spring != nullptr && is_in_world(instance, joints[i])) {
+      const btVector3 now = stretch(*instance.joints[i]);
+      sum += spring->stiffness * dot(now, now) / 2;
+    }
+  return sum;
+}
+
+double energy_in_world(const effects::SceneInstance& instance) {
+  EnergyAccount account(instance);
+  account.before_substep();
+  return account.balance().in_world;
+}
+
 EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
     : instance_(instance),
       lowest_(std::numeric_limits<double>::infinity()),
@@ -56,22 +79,22 @@ EnergyAccount::EnergyAccount(const effects::SceneInstance& instance)
     known_.push_back({inertia_of(body), thickness / 2, !instance.subject.trees.has_body(i)});
     if (turns_as_if_its_spin_stayed(instance, i)) spinners_.push_back(i);
   }
-  for (const Joint& joint : instance.expanded.joints)
-    if (std::holds_alternative<SpringJoint>(joint.value)) stretched_.emplace_back(0, 0, 0);
+  const std::vector<Joint>& joints = instance.expanded.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (const auto* const spring = std::get_if<SpringJoint>(&joints[i].value))
+      springs_.push_back({i, spring->stiffness, btVector3(0, 0, 0)});
 }
 
 // A step of the engine takes the force of a spring where the step begins, and moves bodies with the velocity at its
 // end. What such steps keep is the product of the stretch before and after, not the square of either.
 double EnergyAccount::springs() {
   double sum = 0;
-  std::size_t next = 0;
-  const auto& joints = instance_.expanded.joints;
-  for (std::size_t i = 0; next < stretched_.size(); ++i) {
-    const auto* const spring = std::get_if<SpringJoint>(&joints[i].value);
-    if (spring == nullptr) continue;
-    const btVector3 now = stretch(*instance_.joints[i]);
-    sum += spring->stiffness * dot(now, is_running_ ? stretched_[next] : now) / 2;
-    stretched_[next++] = now;
+  for (Spring& spring : springs_) {
+    const bool acts = is_in_world(instance_, instance_.expanded.joints[spring.joint]);
+    const btVector3 now = acts ? stretch(*instance_.joints[spring.joint]) : btVector3(0, 0, 0);
+    spring.energy = spring.stiffness * dot(now, is_running_ ? spring.stretch : now) / 2;
+    spring.stretch = now;
+    sum += spring.energy;
   }
   return sum;
 }
@@ -115,6 +138,14 @@ void EnergyAccount::settle() {
     energy_ += change;
     balance_.work.other += change;
     mass_ += known_[each.body].inertia.mass * (int{counts(*instance_.bodies[each.body])} - int{each.counted});
+  }
+  for (Spring& spring : springs_) {
+    if (is_in_world(instance_, instance_.expanded.joints[spring.joint])) continue;
+    spring_energy_ -= spring.energy;
+    energy_ -= spring.energy;
+    balance_.work.other -= spring.energy;
+    spring.energy = 0;
+    spring.stretch.setZero();
   }
   between_.clear();
 }

@@ -21,6 +21,12 @@ namespace boxstream::scenes {
 /// origin: joules.
 double energy_of(const btRigidBody& body, const btVector3& gravity);
 
+/// Of springs that are in the world, as they are drawn out now: joules.
+double energy_of_springs(const effects::SceneInstance& instance);
+
+/// EnergyBalance::in_world of a world as it is now, between two steps: never 0 where a dynamic body is in the world.
+double energy_in_world(const effects::SceneInstance& instance);
+
 /// Energy that came into a world from outside: joules.
 struct Work {
   double fields = 0;    ///< forces on bodies: wind, drag, buoyancy, vortices
@@ -107,6 +113,13 @@ class EnergyAccount {
     btVector3 force, torque, velocity, spin;
   };
 
+  struct Spring {
+    std::size_t joint;
+    double stiffness;   // N/m
+    btVector3 stretch;  // at the last look; 0 of what is not in the world
+    double energy = 0;  // joules, likewise
+  };
+
   double look_at(std::size_t body);
   void look_at_all();
   /// A look at all in the middle of the account.
@@ -123,7 +136,7 @@ class EnergyAccount {
   std::vector<Acted> between_;         // since bodies moved
   std::vector<double> reckoned_;       // energy of each before a look at all
   std::vector<std::size_t> spinners_;  // that Bullet turns as if their spin stayed
-  std::vector<btVector3> stretched_;   // springs, at the last look
+  std::vector<Spring> springs_;
   std::vector<Pushed> pushed_;
   btVector3 gravity_{0, 0, 0};
   SolverWork work_before_;

@@ -19,7 +19,7 @@ void for_each_dynamic(const effects::SceneInstance& instance, Visit visit) {
 
 double energy(const effects::SceneInstance& instance) {
   const btVector3 gravity = instance.world.world().getGravity();
-  double sum = 0;
+  double sum = energy_of_springs(instance);
   for_each_dynamic(instance, [&](const btRigidBody& body) { sum += energy_of(body, gravity); });
   return sum;
 }
@@ -71,6 +71,12 @@ double max_penetration(const effects::SceneInstance& instance) {
 
 }  // namespace
 
+double Simulation::energy_scale() const {
+  const effects::SceneInstance& instance = impl_->instance;
+  const double scale = std::max(std::abs(energy(instance)), energy_in_world(instance));
+  return scale > 0 ? scale : std::numeric_limits<double>::quiet_NaN();
+}
+
 double Simulation::metric(Check::Metric metric) const {
   const Impl& d = *impl_;
   switch (metric) {
@@ -85,7 +91,7 @@ double Simulation::metric(Check::Metric metric) const {
     case Check::Metric::energy:
       return energy(d.instance);
     case Check::Metric::energy_drift:
-      return std::abs(energy(d.instance) - d.first_energy) / std::max(std::abs(d.first_energy), 1.0);
+      return std::abs(energy(d.instance) - d.first_energy) / d.energy_scale;
     case Check::Metric::momentum:
       return momentum(d.instance);
     case Check::Metric::max_speed:

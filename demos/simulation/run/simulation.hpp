@@ -134,6 +134,10 @@ class Simulation {
   /// at all bodies.
   EnergyBalance energy_balance() const;
 
+  /// Joules that are in the world now, which a change of energy is a share of: counted from the origin, or from the
+  /// lowest point of a dynamic body, whichever is more. NaN where no dynamic body is in the world.
+  double energy_scale() const;
+
   /// As it is now, between two steps. `energy_drift` compares with the time before the first step.
   double metric(Check::Metric metric) const;
   /// The scene's checks, as far as they were evaluated until now; this evaluates those of the end.

@@ -62,7 +62,7 @@ struct Simulation::Impl {
   bool monitored = false;     // by checks of the scene
   bool count_missed = false;  // of pairs, in each step: one of them needs it
   std::uint64_t missed_pairs = 0;
-  double first_energy = 0;
+  double first_energy = 0, energy_scale = 0;
   double residual = 0;  // of the last step
   std::vector<CheckResult> check_results;
 

@@ -130,6 +130,13 @@ TEST(Advice, TurnsKnobsThatSeldomHelpWhereTheyMay) {
   EXPECT_EQ(tried(chain(100), true), "step ");
   EXPECT_EQ(tried(chain(1000), true), "precision step ");
   EXPECT_EQ(tried(chain(1000), false), "step ");
+  // The same by volumes: links of 0.01047 m^3, a load of 0.5236 m^3.
+  nlohmann::json dense = chain(1);
+  dense["generators"][0]["link"] = {{"shape", "link"}, {"density", 200}};
+  dense["generators"][0]["end"] = {{"shape", "load"}, {"density", 5000}};
+  EXPECT_EQ(tried(dense, true), "precision step ") << "1250 times";
+  dense["generators"][0]["end"]["density"] = 3800;
+  EXPECT_EQ(tried(dense, true), "step ") << "950 times";
   // Cubes of 5 cm, up to 20 km away.
   nlohmann::json cubes = tower(2);
   EXPECT_EQ(tried(cubes, true), "margin step ");

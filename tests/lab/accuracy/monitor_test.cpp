@@ -68,6 +68,25 @@ TEST(Monitor, MomentumChangesByTheImpulseOfGravity) {
   EXPECT_NEAR(rows_of(request_of(scene, {"momentum_drift"})).at(0).series[0].last, 1, 1e-6);
 }
 
+TEST(Monitor, DriftOfAFewGramsIsAShareOfTheirEnergy) {
+  // Over its lowest point it has 0.002 * 8 * 0.5 J. A fall in steps of h ends with m g^2 t h / 2 too little.
+  const json scene = scene_of(R"([{"shape": "ball", "mass": 0.002, "position": [0, 0, 0]}])", {0, -8, 0}, 1.0 / 64, 16);
+  const Row row = rows_of(request_of(scene, {"energy_drift", "energy_change.last"})).at(0);
+  const double share = 8 * 0.25 / 64 / 2 / 0.5;
+  EXPECT_NEAR(row.series[0].worst, share, 1e-5);
+  EXPECT_NEAR(row.series[1].last, -share, 1e-5);
+}
+
+TEST(Monitor, EnergyOfSpringsIsNoDrift) {
+  json scene = scene_of(R"([{"name": "b", "shape": "ball", "mass": 2, "position": [0, 0, 0], "velocity": [0, 3, 0],
+    "sleep": false}])",
+                        {0, 0, 0}, 1.0 / 128, 256);
+  scene["joints"] = json::parse(R"([{"type": "spring", "a": "b", "pivot": [0, 0, 0], "stiffness": 50, "damping": 0}])");
+  const Row row = rows_of(request_of(scene, {"energy_drift"})).at(0);
+  // 5 rad/s: places and speeds of steps of h are half a step apart.
+  EXPECT_NEAR(row.series[0].worst, 5.0 / 128 / 2, 5e-4);
+}
+
 TEST(Monitor, HeightLossOfAFallAndWhenItIsATenth) {
   // The top is 3.5 m over the lowest point; h = 1/64 s, 8 n (n + 1) / 2 h^2 fallen after n steps.
   const json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0]},
@@ -85,6 +104,22 @@ TEST(Monitor, HeightLossOfAFallAndWhenItIsATenth) {
   const Row standing = rows_of(request_of(still, {"collapse_time", "stands"})).at(0);
   EXPECT_NEAR(standing.series[0].last, 40 / 64.0, 1e-12);
   EXPECT_EQ(standing.series[1].last, 1);
+}
+
+TEST(Monitor, HeightIsMeasuredAgainstGravity) {
+  // Along z both fall by 6 n (n + 1) / 2 h^2, from a height of 4 m. Along y their extent grows.
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0], "velocity": [0, 6, 0]},
+    {"shape": "ball", "mass": 1, "position": [3, 0, 3]}])",
+                        {0, 0, -6}, 1.0 / 64, 32);
+  const auto fallen = [](int n) { return 3.0 * n * (n + 1) / 64 / 64; };
+  const Row row = rows_of(request_of(scene, {"height_loss", "stands"})).at(0);
+  EXPECT_NEAR(row.series[0].worst, fallen(32) / 4, 1e-5);
+  EXPECT_EQ(row.series[1].last, 0);
+  // The same fall aslant, by 3 to 4 to the axes.
+  scene["world"]["gravity"] = {0, -3.6, -4.8};
+  scene["bodies"][0]["velocity"] = {0, 0, 0};
+  scene["bodies"][1]["position"] = {3, 1.8, 2.4};
+  EXPECT_NEAR(rows_of(request_of(scene, {"height_loss"})).at(0).series[0].last, fallen(32) / 4, 1e-5);
 }
 
 TEST(Monitor, PenetrationThatNothingMends) {
@@ -111,6 +146,18 @@ TEST(Monitor, TunnelledIsTheShareOutOfBounds) {
   EXPECT_EQ(tunnelled.last, 0.25);
   // Beyond 9 m after 29 steps of 0.3125 m.
   EXPECT_NEAR(tunnelled.mean, 0.25 * (64 - 28) / 64, 1e-12);
+}
+
+TEST(Monitor, TunnelledIsAShareOfAllThatTheSceneHas) {
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0, 0, 0], "velocity": [0, 0, 20]},
+    {"shape": "ball", "mass": 1, "position": [3, 0, 0], "velocity": [0, 0, -20]},
+    {"shape": "ball", "mass": 1, "position": [-3, 0, 0]}, {"shape": "ball", "mass": 1, "position": [6, 0, 0]},
+    {"shape": "ball", "mass": 1, "position": [-6, 0, 0]}])",
+                        {0, 0, 0}, 1.0 / 64, 32);
+  scene["world"]["on_leave"] = "remove";
+  EXPECT_EQ(rows_of(request_of(scene, {"tunnelled"})).at(0).series[0].last, 0.4) << "of 5, though 3 are left";
+  for (json& body : scene["bodies"]) body["velocity"] = {0, 0, 20};
+  EXPECT_EQ(rows_of(request_of(scene, {"tunnelled"})).at(0).series[0].last, 1);
 }
 
 TEST(Monitor, BallsThatJumpOverAPlateTunnel) {
@@ -183,6 +230,30 @@ TEST(Monitor, WhatWindBlowsAwayDoesNotExplode) {
   const Row row = rows_of(request_of(scene, {"max_speed.last"})).at(0);
   EXPECT_EQ(row.failure, "");
   EXPECT_GT(row.series[0].last, 1) << "ten times as fast as at the start";
+}
+
+TEST(Monitor, WhatABatHitsDoesNotExplode) {
+  // It parts from the bat as fast as they met, 1.52 m/s on top of the bat's 1.5 m/s: more than ten times its own speed.
+  json scene = scene_of(R"([{"shape": "ball", "mass": 1, "position": [0.25, 0, 0], "velocity": [-0.02, 0, 0],
+      "material": "steel", "sleep": false},
+    {"shape": "floor", "type": "kinematic", "position": [-5.5, 0, 0], "velocity": [1.5, 0, 0], "material": "steel"}])",
+                        {0, 0, 0}, 1.0 / 64, 48);
+  scene["materials"] = json::parse(R"({"steel": {"friction": 0, "restitution": 1}})");
+  scene["solver"]["bounces"] = "on_contact";
+  const Row row = rows_of(request_of(scene, {"max_speed.last"})).at(0);
+  EXPECT_EQ(row.failure, "");
+  EXPECT_NEAR(row.series[0].last, 2 * 1.5 + 0.02, 1e-3);
+}
+
+TEST(Monitor, WhatAMotorDrivesDoesNotExplode) {
+  json scene =
+      scene_of(R"([{"name": "arm", "shape": "ball", "mass": 1, "position": [2, 0, 0]}])", {0, 0, 0}, 1.0 / 64, 64);
+  scene["bodies"][0]["velocity"] = {0, 0.001, 0};
+  scene["joints"] = json::parse(R"([{"type": "hinge", "a": "arm", "pivot": [0, 0, 0], "axis": [0, 0, 1],
+    "motor": {"speed": 1, "max_force": 100}}])");
+  const Row row = rows_of(request_of(scene, {"max_speed.last"})).at(0);
+  EXPECT_EQ(row.failure, "");
+  EXPECT_NEAR(row.series[0].last, 2, 0.01) << "1 rad/s, 2 m from its hinge";
 }
 
 TEST(Monitor, SecondRunEndsWithTheSameBits) {

@@ -42,21 +42,46 @@ TEST(Trajectory, PartsWhereOneTouchesAndTheOtherDoesNot) {
   EXPECT_EQ(divergence_time(a, b, 0.1, 3.05), 3.05);
 }
 
-TEST(Trajectory, HasBodiesThatAreFrozenToo) {
-  const scenes::Scene scene =
-      scenes::parse_scene(R"({"format": 1, "meta": {"name": "made", "about": "made", "source": "made"},
-    "time": {"dt": 0.01, "steps": 9}, "world": {"gravity": [0, 0, 0], "on_leave": "freeze",
-      "bounds": {"min": [-1, -1, -1], "max": [1, 1, 1]}}, "shapes": [{"name": "ball", "type": "sphere", "radius": 0.1}],
-    "bodies": [{"shape": "ball", "mass": 1, "position": [0.95, 0, 0], "velocity": [10, 0, 0]},
-      {"shape": "ball", "mass": 1, "position": [0, 0.5, 0]}]})",
-                          "made.json");
-  scenes::Simulation simulation(scene, "boxstream");
-  simulation.advance();
-  ASSERT_EQ(simulation.left(), 1u);
-  const Frame frame = frame_of(simulation);
-  ASSERT_EQ(frame.positions.size(), 2u);
-  EXPECT_NEAR(frame.positions[0].x(), 1.05, 1e-5);
-  EXPECT_NEAR(frame.positions[1].y(), 0.5, 1e-6);
+/// Two balls at 3 m/s, the first of which is frozen where it leaves, beyond 5 m.
+const char* const one_freezes = R"({"format": 1, "meta": {"name": "made", "about": "made", "source": "made"},
+  "time": {"dt": 0.0625, "steps": 32},
+  "world": {"gravity": [0, 0, 0], "on_leave": "freeze", "bounds": {"min": [-9, -9, -9], "max": [5, 9, 9]}},
+  "shapes": [{"name": "ball", "type": "sphere", "radius": 0.25}],
+  "bodies": [{"shape": "ball", "mass": 1, "position": [2, 4, 0], "velocity": [3, 0, 0], "sleep": false},
+    {"shape": "ball", "mass": 1, "position": [-8, 0, 0], "velocity": [3, 0, 0], "sleep": false}]})";
+
+TEST(Trajectory, WhatIsFrozenStaysInItsPlaceOfFrames) {
+  scenes::Simulation simulation(scenes::parse_scene(one_freezes, "made.json"), "boxstream");
+  const Frame first = frame_of(simulation);
+  while (simulation.steps_done() < 32) simulation.advance();
+  const Frame last = frame_of(simulation);
+  ASSERT_EQ(last.positions.size(), 2U);
+  // Steps of 0.1875 m: the first ball is beyond 5 m after 17 of them.
+  EXPECT_NEAR(last.positions[0].x(), 2 + 17 * 0.1875, 1e-5);
+  EXPECT_NEAR(last.positions[1].x(), -8 + 32 * 0.1875, 1e-5);
+  EXPECT_NEAR(distance(first, last), std::sqrt((std::pow(17 * 0.1875, 2) + std::pow(32 * 0.1875, 2)) / 2), 1e-5);
+  EXPECT_NEAR(size_of_bodies(simulation), 0.5, 1e-6);
+}
+
+/// Whole steps fall by 4 t (t + 1/16 s), fine ones by less: the reference freezes a step later.
+TEST(Trajectory, FrozenBodiesAreComparedWithThemselves) {
+  Request request;
+  request.file = "made.json";
+  request.scene = nlohmann::json::parse(one_freezes);
+  request.scene["time"]["steps"] = 18;
+  request.scene["world"]["gravity"] = {0, -8, 0};
+  request.scene["world"]["bounds"]["min"] = {-9, -4.1, -9};
+  request.scene["bodies"][0]["position"] = {2, 0, 0};
+  request.scene["bodies"][1]["position"] = {-8, 8, 0};
+  for (nlohmann::json& body : request.scene["bodies"]) body["velocity"] = {0, 0, 0};
+  request.knobs.push_back(parse_knob("substeps=1"));
+  request.measures.push_back(parse_measure("trajectory"));
+  request.repeats = 1;
+  const Row row = run(request, [](const Stage&) {}).rows.at(0);
+  EXPECT_EQ(row.failure, "");
+  // Neither is ever farther off than what falls for 18 steps.
+  EXPECT_GT(row.series[0].worst, 0.2);
+  EXPECT_LT(row.series[0].worst, 4 * 18 / 16.0 / 16);
 }
 
 /// Coarse steps jump over a plate that the reference meets.

@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 
 #include "boxstream/advice/coarse_steps.hpp"
+#include "boxstream/advice/columns.hpp"
 #include "boxstream/advice/hard_families.hpp"
+#include "boxstream/advice/reaching.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "simulation/run/simulation.hpp"
 #include "simulation/run/vitals.hpp"
@@ -368,6 +370,51 @@ TEST(CoarseSteps, LookAtWhatTurnsAHinge) {
   const std::string fast = R"(, "motor": {"speed": 10, "max_force": 100})";
   EXPECT_TRUE(on_a_hinge("[0, 1, 0]", "[0, 0.5, 0]", fast).empty()) << "a turntable turns about its centre";
   EXPECT_EQ(on_a_hinge("[0, 1, 0]", "[0.45, 0.5, 0]", fast).size(), 1u);
+}
+
+/// 3 kg on a hinge about z, 0.8 m beside it. The body's own origin is in the hinge.
+std::vector<tool::CoarseStep> beside_its_origin(const std::string& motor) {
+  return tool::coarse_steps(scenes::parse_scene(
+      fmt::format(
+          R"({{"format": 1, "meta": {{"name": "lever", "about": "A lever."}}, "time": {{"dt": 0.0125, "steps": 60}},
+        "world": {{"gravity": [0, -9.81, 0], "bounds": {{"min": [-9, -9, -9], "max": [9, 9, 9]}}}},
+        "shapes": [{{"name": "ball", "type": "sphere", "radius": 0.2}},
+          {{"name": "lever", "type": "compound", "children": [{{"shape": "ball", "position": [0, 0.8, 0]}}]}}],
+        "bodies": [{{"name": "lever", "shape": "lever", "mass": 3, "position": [0, 0, 0],
+          "rotation": {{"axis": [0, 0, 1], "degrees": 90}}}}],
+        "joints": [{{"type": "hinge", "a": "lever", "pivot": [0, 0, 0], "axis": [0, 0, 1]{}}}]}})",
+          motor),
+      "lever"));
+}
+
+TEST(CoarseSteps, AreOfCentresOfMass) {
+  const std::vector<tool::CoarseStep> swings = beside_its_origin("");
+  ASSERT_EQ(swings.size(), 1u);
+  EXPECT_EQ(swings[0].what,
+            "a body swings 0.8 m from a joint, in steps of 0.0125 s: it slows down and rises less each time");
+  // It takes 3 * 9.81 * 0.8 = 23.54 N m.
+  const std::vector<tool::CoarseStep> gives = beside_its_origin(R"(, "motor": {"speed": 0, "max_force": 25})");
+  ASSERT_EQ(gives.size(), 1u);
+  EXPECT_EQ(gives[0].what, "a motor that holds a weight with 1.06 of the torque that it takes: it gives");
+  EXPECT_TRUE(beside_its_origin(R"(, "motor": {"speed": 0, "max_force": 22})").empty()) << "too weak to hold it at all";
+}
+
+TEST(Leans, AreOfCentresOfMass) {
+  // A wedge on a cube: its centre of mass is a third of its length from the upright side, which its origin is on.
+  const Scene scene = scenes::parse_scene(
+      R"({"format": 1, "meta": {"name": "wedge", "about": "A wedge on a cube."}, "time": {"dt": 0.0125, "steps": 60},
+      "world": {"gravity": [0, -9.81, 0], "bounds": {"min": [-9, -9, -9], "max": [9, 9, 9]}},
+      "shapes": [{"name": "cube", "type": "box", "half_extents": [1, 1, 1]},
+        {"name": "wedge", "type": "hull",
+          "points": [[0, 0, -1], [2, 0, -1], [0, 2, -1], [0, 0, 1], [2, 0, 1], [0, 2, 1]]}],
+      "bodies": [{"shape": "cube", "mass": 4, "position": [0, 1, 0]},
+        {"shape": "wedge", "mass": 2, "position": [-1, 2, 0]}]})",
+      "wedge");
+  const scenes::Expanded expanded = scenes::expand(scene);
+  const effects::Subject subject{scene, expanded};
+  const std::vector<tool::Lean> leans = tool::leans_of(subject, tool::masses_of(subject), {0, 1, 0});
+  ASSERT_EQ(leans.size(), 1u);
+  EXPECT_NEAR(leans[0].share, 1 - 2.0 / 3, 0.02);
 }
 
 TEST(CoarseSteps, NameAStackThatLeansSoThatItFalls) {

@@ -137,6 +137,37 @@ TEST(Warnings, NameWhatFliesDeepIntoAFixedBox) {
   EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "radius\\\": 0.45"));
 }
 
+// After 79 m a cube moves by 2 m in a step. With damping it never moves by more than 0.33 m.
+TEST(Warnings, OfLandingsReckonWithDamping) {
+  const ScratchDirectory directory;
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 1}, {"ccd", false}, {"position", {0, 79.7, 0}}},
+                         {{"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}});
+  scene["time"] = {{"dt", 0.05}, {"steps", 400}};
+  scene["world"]["bounds"] = {{"min", {-90, -90, -90}}, {"max", {90, 90, 90}}};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"],
+                   "body 0 moves by 2 m in the step in which it meets body 1: it comes 1.8 m deep, 180 %"));
+  scene["bodies"][0]["linear_damping"] = 0.8;
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "deep"));
+  // 0.1^0.05 of 40 m/s is left of it in the step in which it lands.
+  scene["bodies"][0]["linear_damping"] = 0.9;
+  scene["bodies"][0]["position"] = {0, 0.7, 0};
+  scene["bodies"][0]["velocity"] = {0, -40, 0};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"], "body 0 moves by 1.8 m in the step"));
+}
+
+TEST(Warnings, OfThrowsAreOfWhatGravityAloneSlowsDown) {
+  const ScratchDirectory directory;
+  json scene =
+      scene_of({{{"shape", "cube"}, {"mass", 1}, {"position", {0, 0, 0}}, {"velocity", {0, 4, 0}}, {"sleep", false}}});
+  EXPECT_TRUE(says(warnings_of(directory, scene)["coarse_steps"],
+                   "a body is thrown up at 4 m/s: it rises 2.5 % less high, by half of what it moves in a step"));
+  scene["bodies"][0]["linear_damping"] = 0.3;
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "thrown"));
+  scene["bodies"][0]["linear_damping"] = 0;
+  scene["fields"] = {{{"type", "drag"}, {"linear", 0.01}}};
+  EXPECT_FALSE(says(warnings_of(directory, scene)["coarse_steps"], "thrown"));
+}
+
 TEST(Warnings, NameWhatIsPutToRestThoughItWouldFlyOn) {
   const ScratchDirectory directory;
   json scene = scene_of(
@@ -148,6 +179,46 @@ TEST(Warnings, NameWhatIsPutToRestThoughItWouldFlyOn) {
   EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
   scene["bodies"][0]["sleep"] = true;
   scene["bodies"][0]["velocity"] = {0.9, 0, 0};
+  EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
+}
+
+TEST(Warnings, NameWhatIsPutToRestInTheMiddleOfItsMotion) {
+  const ScratchDirectory directory;
+  const auto warnings = [&](const json& scene) { return warnings_of(directory, scene)["warnings"]; };
+  const std::string rest = "which is slow enough to be put to rest after 2 s";
+  // A fall of 0.35 m/s^2 comes to 0.7 m/s in 2 s. Steps of the warm-up count.
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 3}, {"position", {0, 5, 0}}}});
+  scene["world"]["gravity"] = {0, -0.35, 0};
+  scene["time"] = {{"dt", 0.01}, {"steps", 150}, {"warmup_steps", 100}};
+  EXPECT_TRUE(says(warnings(scene), "body 0 comes to 0.7 m/s and 0 rad/s at most, " + rest));
+  scene["world"]["gravity"] = {0, -0.45, 0};
+  EXPECT_EQ(warnings(scene), json::array());
+  // In oil it sinks at 3 * 10 / 60 m/s, however it began.
+  scene["world"]["gravity"] = {0, -10, 0};
+  scene["fields"] = {{{"type", "drag"}, {"linear", 60}}};
+  EXPECT_TRUE(says(warnings(scene), "body 0 comes to 0.5 m/s"));
+  scene["fields"][0]["linear"] = 30;
+  EXPECT_EQ(warnings(scene), json::array());
+  // A pendulum of 2 m that starts 0.2 rad from the vertical: 2 * sqrt(10 * 2) * sin(0.1) m/s.
+  scene.erase("fields");
+  scene["bodies"][0]["name"] = "bob";
+  scene["bodies"][0]["position"] = {2 * std::sin(0.2), 6 - 2 * std::cos(0.2), 0};
+  scene["joints"] = {{{"type", "hinge"}, {"a", "bob"}, {"pivot", {0, 6, 0}}, {"axis", {0, 0, 1}}}};
+  EXPECT_EQ(warnings(scene), json::array()) << "0.89 m/s";
+  scene["bodies"][0]["position"] = {2 * std::sin(0.1), 6 - 2 * std::cos(0.1), 0};
+  EXPECT_TRUE(says(warnings(scene), "comes to 0.45 m/s and 0.22 rad/s at most, " + rest));
+  scene["bodies"][0]["position"] = {0, 4, 0};
+  EXPECT_EQ(warnings(scene), json::array()) << "it hangs still";
+}
+
+TEST(Warnings, NameWhatSleepsWhereGravityTurnsSlowly) {
+  const ScratchDirectory directory;
+  json scene = scene_of({{{"shape", "cube"}, {"mass", 3}, {"position", {0, 0.5, 0}}},
+                         {{"shape", "floor"}, {"type", "static"}, {"position", {0, -1, 0}}}});
+  scene["time"]["steps"] = 400;
+  scene["world"]["gravity"] = {{"script", "tumble"}, {"strength", 10}, {"degrees_per_second", 15}};
+  EXPECT_TRUE(says(warnings_of(directory, scene)["warnings"], "gravity, which turns, does not wake it"));
+  scene["world"]["gravity"]["degrees_per_second"] = 25;
   EXPECT_EQ(warnings_of(directory, scene)["warnings"], json::array());
 }
 

@@ -271,6 +271,28 @@ TEST(Energy, OfASpringComesAndGoes) {
   EXPECT_EQ(balance.gains, 0U) << told(balance);
 }
 
+/// A body that is taken out takes the energy of its spring along, and draws out none from then on.
+TEST(Energy, OfASpringGoesWithTheBodyThatIsTakenOut) {
+  json document = alone(120);
+  document["world"]["on_leave"] = "remove";
+  document["world"]["bounds"] = {{"min", {-5, -5, -5}}, {"max", {1, 5, 5}}};
+  document["shapes"].push_back({{"name", "ball"}, {"type", "sphere"}, {"radius", 0.25}});
+  document["bodies"] = {
+      {{"name", "leaves"}, {"shape", "ball"}, {"mass", 3}, {"position", {0, 0, 0}}, {"velocity", {6, 0, 0}}},
+      {{"name", "stays"},
+       {"shape", "ball"},
+       {"mass", 2},
+       {"position", {-3, 0, 0}},
+       {"velocity", {-0.5, 0, 0}},
+       {"sleep", false}}};
+  document["joints"] = {{{"type", "spring"}, {"a", "leaves"}, {"pivot", {0, 0, 0}}, {"stiffness", 70}, {"damping", 0}}};
+  const EnergyBalance balance = balance_of(document);
+  EXPECT_NEAR(balance.first, 3 * 36 / 2.0 + 2 * 0.25 / 2, 1e-3);
+  EXPECT_NEAR(balance.now, 0.25, 1e-4);
+  EXPECT_NEAR(balance.work.other, -3 * 36 / 2.0, 0.1) << "motion and spring of what was taken out";
+  EXPECT_EQ(balance.gains, 0U) << told(balance);
+}
+
 /// A spring that pulls at corners turns the boxes as well.
 TEST(Energy, OfASpringBetweenTumblingBoxesStays) {
   json document = alone(45);
