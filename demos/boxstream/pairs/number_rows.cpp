@@ -2,11 +2,13 @@
 #include "boxstream/pairs/number_rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -27,16 +29,14 @@ std::string_view cut(std::string_view& line, std::size_t size) {
   return part;
 }
 
-/// The next word of `line`, which is cut off; empty at the end.
-std::string_view next_word(std::string_view& line) {
-  cut(line, line.find_first_not_of(separators));
-  return cut(line, line.find_first_of(separators));
-}
-
 /// Empty, or why `line` is no row of numbers.
 std::string parse(std::string_view line, std::size_t most, std::vector<double>& row) {
   row.clear();
-  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+  for (;;) {
+    const std::string_view gap = cut(line, line.find_first_not_of(separators));
+    if (line.empty()) return {};
+    if (std::count(gap.begin(), gap.end(), ',') > 1) return "an empty field between two commas";
+    const std::string_view word = cut(line, line.find_first_of(separators));
     if (row.size() == most) return fmt::format("more than {} numbers", most);
     double& value = row.emplace_back();
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -44,7 +44,6 @@ std::string parse(std::string_view line, std::size_t most, std::vector<double>& 
     if (error != std::errc{} || end != word.data() + word.size()) return fmt::format("\"{}\" is not a number", word);
     if (std::isnan(value)) return "NaN is not a coordinate";
   }
-  return {};
 }
 
 /// The next line without its end; false at the end of the file. Throws BadInput for one that is no line of numbers.
@@ -121,6 +120,24 @@ std::string why_no_balls(const std::vector<std::string>& names, std::size_t dime
   return {};
 }
 
+bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
+  return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return name.find(part) != name.npos; });
+}
+
+/// Why columns of these names are no boxes; empty if they are, or have names that say nothing of that.
+std::string why_no_boxes(const std::vector<std::string>& names) {
+  std::string ends;  // '<' for a minimum, '>' for a maximum
+  for (const std::string& name : names) {
+    const std::string lower = lower_case(name);
+    if (has_any(lower, {"min", "lo"}))
+      ends += '<';
+    else if (has_any(lower, {"max", "hi"}))
+      ends += '>';
+  }
+  if (ends.size() != 6 || ends == "<<<>>>") return {};
+  return fmt::format("the columns are called {}: three minima come first, then three maxima", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 void read_number_rows(std::istream& in, const std::string& name, std::size_t most,
@@ -153,19 +170,20 @@ void read_number_rows(std::istream& in, const std::string& name, std::size_t mos
 
 std::vector<Aabb64> read_boxes(std::istream& in, const std::string& name, std::size_t first_line) {
   std::vector<Aabb64> boxes;
-  read_number_rows(
-      in, name, 6,
-      [&](const std::vector<double>& row) -> std::string {
-        if (row.size() < 6) return fmt::format("{} numbers, expected 6", row.size());
-        Aabb64& box = boxes.emplace_back();
-        for (std::size_t d = 0; d < 3; ++d) {
-          if (row[d] > row[d + 3]) return fmt::format("min > max on the {} axis", "xyz"[d]);
-          box.min[d] = row[d];
-          box.max[d] = row[d + 3];
-        }
-        return {};
-      },
-      first_line);
+  std::vector<std::string> names;
+  const auto take = [&](const std::vector<double>& row) -> std::string {
+    if (row.size() < 6) return fmt::format("{} numbers, expected 6", row.size());
+    if (boxes.empty())
+      if (std::string reason = why_no_boxes(names); !reason.empty()) return reason;
+    Aabb64& box = boxes.emplace_back();
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (row[d] > row[d + 3]) return fmt::format("min > max on the {} axis", "xyz"[d]);
+      box.min[d] = row[d];
+      box.max[d] = row[d + 3];
+    }
+    return {};
+  };
+  read_number_rows(in, name, 6, take, first_line, &names);
   return boxes;
 }
 
