@@ -146,7 +146,7 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   request.elsewhere = other_precision();
   request.stop = interrupted;
   const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
-  note_old_words(scene);
+  note_what_was_read(scene);
   if (options.knobs.empty()) request.knobs = accuracy::usual_knobs(scene, request.elsewhere != nullptr);
   if (options.advise || (options.knobs.empty() && !options.bound.empty())) request.seek.emplace();
   if (request.seek && !options.bound.empty()) request.seek->bound = accuracy::parse_bound(options.bound);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_json/load_parts.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "formats/geometry/convex_hull.hpp"
@@ -56,6 +57,13 @@ std::map<std::string, Motor> read_motors(const Node& node) {
   return motors;
 }
 
+/// Whether the world has another gravity than the file, which has floats.
+bool is_other_gravity(const WorldSettings& world, const Vec3& gravity) {
+  constexpr double rounding = 1e-4;
+  return world.tumbling || std::abs(world.gravity[0] - gravity[0]) > rounding ||
+         std::abs(world.gravity[1] - gravity[1]) > rounding || std::abs(world.gravity[2] - gravity[2]) > rounding;
+}
+
 }  // namespace
 
 bool is_foreign_mesh(const Node& file) {
@@ -89,7 +97,7 @@ CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) tr
   file.fail(error.what());
 }
 
-void read_import(Fields& fields, const Names& names, ImportGenerator& generator) {
+void read_import(Fields& fields, const Scene& scene, const Names& names, ImportGenerator& generator) {
   const Node file = fields.require("file");
   generator.file = file_beside(file);
   imports::ImportOptions options;
@@ -120,6 +128,9 @@ void read_import(Fields& fields, const Names& names, ImportGenerator& generator)
   generator.bodies = std::move(part.bodies);
   generator.joints = std::move(part.joints);
   generator.exclusions = std::move(part.exclusions);
+  generator.notes = document["notes"].get<std::vector<std::string>>();
+  if (document.contains("gravity") && is_other_gravity(scene.world, document["gravity"].get<Vec3>()))
+    generator.notes.push_back("gravity of the file: left out");
   if (fields.find("material")) {
     const Material material = read_material(fields, names);
     for (Body& body : generator.bodies) body.traits.material = material;
