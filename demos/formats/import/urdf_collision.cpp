@@ -78,11 +78,10 @@ struct UrdfCollisions::Measured {
 
 const TriangleMesh& UrdfCollisions::mesh(const urdf::Mesh& mesh) {
   const std::string file = find_mesh(path_, mesh.filename, options_.packages, options_.within);
-  const auto key = file + '\n' + std::to_string(mesh.scale.x) + ' ' + std::to_string(mesh.scale.y) + ' ' +
-                   std::to_string(mesh.scale.z);
+  const std::pair key(file, vector(mesh.scale));
   const auto found = meshes_.find(key);
   if (found != meshes_.end()) return found->second;
-  return meshes_.emplace(key, read_mesh_unguarded(file, vector(mesh.scale), UpAxis::left_alone)).first->second;
+  return meshes_.emplace(key, read_mesh_unguarded(file, key.second, UpAxis::left_alone)).first->second;
 }
 
 std::vector<Hull> UrdfCollisions::hulls(const urdf::Mesh& description) {

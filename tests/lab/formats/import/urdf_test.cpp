@@ -123,6 +123,27 @@ TEST(Urdf, MeshesBecomeHullsOrPartsAroundTheCentreOfMass) {
   EXPECT_EQ(parts["shapes"][3]["children"].size(), 2u);
 }
 
+/// Robots drawn in micrometres have scales that are equal to six decimals.
+TEST(Urdf, AMeshOfTwoScalesIsTwoMeshes) {
+  const ScratchDirectory scratch;
+  scratch.write("corner.obj", "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nv 0 0 1e6\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto mesh = [](const std::string& scale) {
+    return "<mesh filename=\"corner.obj\" scale=\"" + scale + " " + scale + " " + scale + "\"/>";
+  };
+  const std::string text = without(post_and_bar, R"(<box size="1 0.1 0.1"/>)",
+                                   mesh("3e-7") + "</geometry></collision><collision><geometry>" + mesh("4e-7"));
+  const json shapes = json::parse(imports::import_file(scratch.write("r.urdf", text), {}))["shapes"];
+  for (const auto& [shape, side] : {std::pair(1u, 0.3), std::pair(2u, 0.4)}) {
+    ASSERT_EQ(shapes[shape]["points"].size(), 4u);
+    double low = 10, high = -10;
+    for (const json& p : shapes[shape]["points"]) {
+      low = std::min(low, p[0].get<double>());
+      high = std::max(high, p[0].get<double>());
+    }
+    EXPECT_NEAR(high - low, side, 1e-9);
+  }
+}
+
 TEST(Urdf, PackagesAreDirectoriesAbove) {
   const ScratchDirectory scratch;
   std::filesystem::create_directories(scratch.file("pkg/urdf"));
