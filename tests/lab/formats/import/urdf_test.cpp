@@ -95,6 +95,25 @@ TEST(Urdf, AMassThatIsMissingComesFromADensityOrIsAnError) {
   expect_near(all["bodies"][1]["position"], {0.5, 2.1, 0});
 }
 
+/// A ball of 0.3 m at (0, 0, 0.5) that is fixed to the bar.
+TEST(Urdf, ADensityWeighsLinksThatAreFixedToOnesWithAMass) {
+  const std::string text = without(post_and_bar, "</robot>", R"(<link name="knob"><collision><geometry>
+      <sphere radius="0.3"/></geometry></collision></link><joint name="weld" type="fixed"><parent link="bar"/>
+      <child link="knob"/><origin xyz="0 0 0.5"/></joint></robot>)");
+  ImportOptions options;
+  options.z_up = false;
+  EXPECT_EQ(import(text, options)["bodies"][1]["mass"], 2);
+  options.density = 25;
+  const double ball = 25 * 4 * std::numbers::pi / 3 * 0.3 * 0.3 * 0.3, mass = 2 + ball;
+  const json bar = import(text, options)["bodies"][1];
+  EXPECT_NEAR(bar["mass"].get<double>(), mass, 1e-12);
+  // Of 2 kg at (0.5, 0, 2.1) and the ball at (0, 0, 2.6).
+  expect_near(bar["position"], {2 * 0.5 / mass, 0, (2 * 2.1 + ball * 2.6) / mass});
+  // Trace of the tensors of both, and of two masses 0.5 sqrt(2) apart.
+  const auto moments = bar["inertia"].get<Vec3>();
+  EXPECT_NEAR(moments[0] + moments[1] + moments[2], 3 + 3 * 0.4 * ball * 0.09 + 2 * (2 * ball / mass) * 0.5, 1e-9);
+}
+
 TEST(Urdf, MeshesBecomeHullsOrPartsAroundTheCentreOfMass) {
   const ScratchDirectory scratch;
   scratch.write("ell.obj", as_obj(ell()));
