@@ -60,10 +60,14 @@ RawMesh read_text(std::string_view text) {
   TextScan scan(text);
   try {
     std::size_t corners = 0;
+    bool in_solid = false;
     while (!scan.at_end()) {
       TextScan words(scan.line());
       for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-        if (is_keyword(word, "solid") || is_keyword(word, "endsolid")) break;  // what follows is a name
+        if (is_keyword(word, "solid") || is_keyword(word, "endsolid")) {
+          in_solid = is_keyword(word, "solid");
+          break;  // what follows is a name
+        }
         if (is_keyword(word, "vertex")) {
           mesh.vertices.push_back(coordinates_in(words));
           ++corners;
@@ -75,6 +79,7 @@ RawMesh read_text(std::string_view text) {
       }
     }
     if (corners != 0) throw std::runtime_error("cut off");
+    if (in_solid) throw std::runtime_error("cut off: no endsolid");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error("line " + std::to_string(scan.lines()) + ": " + error.what());
   }

@@ -144,6 +144,19 @@ TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
     EXPECT_EQ(complaint(read_stl, whole.substr(0, 200)), "cut off: 4 triangles take 284 bytes");
 }
 
+TEST(MeshFiles, OfStlEndWithTheirLastSolid) {
+  const std::string solid = as_ascii_stl(tetrahedron());  // two lines, and seven for each facet
+  const auto first_lines = [&](int lines) {
+    std::size_t end = 0;
+    for (int i = 0; i < lines; ++i) end = solid.find('\n', end) + 1;
+    return solid.substr(0, end);
+  };
+  EXPECT_EQ(complaint(read_stl, first_lines(15)), "line 15: cut off: no endsolid");
+  EXPECT_EQ(complaint(read_stl, solid + first_lines(29)), "line 59: cut off: no endsolid");
+  EXPECT_EQ(complaint(read_stl, first_lines(12)), "line 12: cut off");
+  EXPECT_EQ(read_stl(solid + solid).triangles.size(), 8u);
+}
+
 TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {
   const std::string properties =
       " 1.0\nelement vertex 3\nproperty uchar red\nproperty double z\nproperty double x\nproperty double y\n"
