@@ -16,7 +16,8 @@ namespace boxstream::imports {
 struct TriangleMesh {
   std::vector<scenes::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Of a mesh from a file: which of the file's faces, from 0 on, each triangle is part of.
+  /// Of a mesh from a file: which of the file's faces, from 0 on, each triangle is part of. Of .dae, .gltf and .glb,
+  /// faces are triangles, in order of material.
   std::vector<std::uint32_t> faces = {};
 };
 
