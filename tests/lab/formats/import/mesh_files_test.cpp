@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <numbers>
 #include <string>
 
 #include "formats/import/mesh.hpp"
@@ -129,6 +130,26 @@ TEST(MeshFiles, CutPolygonsThatAreNotConvexIntoTheirOwnArea) {
       EXPECT_NEAR(area_along_z(mesh), area, 1e-5 * n) << n;
       EXPECT_EQ(mesh.faces.back(), 0u);
     }
+}
+
+/// Corners on a circle, of which every second one may be pulled in; the circle is a third of a metre up.
+std::string round_face(int corners, double inner) {
+  std::string text, face = "f";
+  char line[100];
+  for (int i = 0; i < corners; ++i) {
+    const double r = i % 2 == 0 ? 1 : inner, angle = 2 * std::numbers::pi * i / corners;
+    std::snprintf(line, sizeof line, "v %.17g %.17g 0.33\n", r * std::cos(angle), r * std::sin(angle));
+    text += line;
+    face += ' ' + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+TEST(MeshFiles, OfVeryManyCornersAreConvexOrRefused) {
+  const RawMesh disc = read_obj(round_face(2600, 1));
+  EXPECT_EQ(disc.triangles.size(), 2598u);
+  EXPECT_NEAR(area_along_z(disc), 1300 * std::sin(2 * std::numbers::pi / 2600), 1e-12);
+  EXPECT_EQ(complaint(read_obj, round_face(2600, 0.4)), "face 0, from 0 on: a face of 2600 corners that is not convex");
 }
 
 TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
