@@ -86,6 +86,9 @@ TEST(MeshFiles, TakeTextAsProgramsWriteIt) {
 
 TEST(MeshFiles, HaveCommentsAndNamesOfAnyWords) {
   EXPECT_EQ(read_obj("v 0 0 0# one\nv 1 0 0 #two\nv 0 1 0\nf 1 2 3# f 1 1 1\n").triangles[0], (Triangle{0, 1, 2}));
+  // A comment may end with the sign that continues a line, as names of folders do.
+  EXPECT_EQ(read_obj("# from C:\\meshes\\\nv 7 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 3 # all \\\nf 3 2 1\n").triangles,
+            (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
   for (const char* const name : {"facet vertex", " vertex 1 2", "outer loop endloop solid"}) {
     std::string text = as_ascii_stl(tetrahedron());
     text.insert(text.find('\n'), std::string(" ") + name);
