@@ -86,12 +86,13 @@ RawMesh read_text(std::string_view text) {
   return mesh;
 }
 
-/// Files of bytes may begin with "solid", too: their size tells.
+/// Files of bytes may begin with "solid", too: their size tells, or a zero, which no text has.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return true;
+  if (bytes.substr(0, header).find('\0') != bytes.npos) return true;
   if (is_keyword(TextScan(TextScan::without_mark(bytes)).word(), "solid")) return false;
   // Bytes of a count and of floats are hardly ever all letters.
-  return !std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
+  return !std::all_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
 }
 
 }  // namespace

@@ -164,6 +164,8 @@ TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
   for (char& c : loud) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   EXPECT_EQ(read_stl(loud).triangles.size(), 4u);
   EXPECT_EQ(complaint(read_stl, "text = " + loud), "a text that does not begin with \"solid\"");
+  EXPECT_EQ(complaint(read_stl, "K\xF6rper\n" + loud), "a text that does not begin with \"solid\"");
+  EXPECT_EQ(read_stl(solid + "by a program").triangles.size(), 4u);
   for (const std::string& whole : {solid, as_binary_stl(tetrahedron())})
     EXPECT_EQ(complaint(read_stl, whole.substr(0, 200)), "cut off: 4 triangles take 284 bytes");
 }
