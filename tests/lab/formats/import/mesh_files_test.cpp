@@ -97,6 +97,7 @@ TEST(MeshFiles, HaveCommentsAndNamesOfAnyWords) {
   }
   const char* const lines = "\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const char* const head : {"OFF", "off", "COFF"}) EXPECT_EQ(read_off(head + std::string(lines)).faces.size(), 1u);
+  EXPECT_EQ(read_off("OFF3 1 0" + std::string(lines).substr(6)).faces.size(), 1u);
   const char* const ply =
       "\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\nend_header\n7 8 9\n";
   for (const char* const head : {"ply", "PLY"})
