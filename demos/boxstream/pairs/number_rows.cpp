@@ -37,9 +37,11 @@ std::string parse(std::string_view line, std::size_t most, std::vector<double>& 
     if (line.empty()) return {};
     if (std::count(gap.begin(), gap.end(), ',') > 1) return "an empty field between two commas";
     const std::string_view word = cut(line, line.find_first_of(separators));
+    // from_chars knows no sign but a minus.
+    const bool has_plus = word[0] == '+' && word.substr(1, 1) != "-";
     if (row.size() == most) return fmt::format("more than {} numbers", most);
     double& value = row.emplace_back();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = std::from_chars(word.data() + has_plus, word.data() + word.size(), value);
     if (error == std::errc::result_out_of_range) return fmt::format("\"{}\" is out of range", word);
     if (error != std::errc{} || end != word.data() + word.size()) return fmt::format("\"{}\" is not a number", word);
     if (std::isnan(value)) return "NaN is not a coordinate";

@@ -73,9 +73,12 @@ TriangleMesh welded_within(const Limits& limits, const std::string& path, const 
   for (std::size_t i = 0; i < raw.vertices.size(); ++i) {
     Vec3 v{};
     for (std::size_t d = 0; d < 3; ++d) v[d] = static_cast<double>(raw.vertices[i][d]) * scale[d];
-    if (!is_finite(v)) fail(path, "a coordinate that is not a finite number");
+    const auto complain = [&](const std::string& what) {
+      fail(path, "vertex " + std::to_string(i) + ", from 0 on: " + what);
+    };
+    if (!is_finite(v)) complain("a coordinate that is not a finite number");
     for (const double x : v)
-      if (std::abs(x) > limits.max_length) fail(path, limits.too_far);
+      if (std::abs(x) > limits.max_length) complain(limits.too_far);
     const auto [place, added] = numbers.try_emplace(v, static_cast<std::uint32_t>(mesh.vertices.size()));
     if (added) mesh.vertices.push_back(v);
     number_of[i] = place->second;

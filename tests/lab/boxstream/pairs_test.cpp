@@ -50,6 +50,13 @@ TEST(Pairs, DoublesAreNotRounded) {
   EXPECT_EQ(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n1.000000000000000 0 0 2 1 1\n", false}).out, "boxes 2, pairs 1\n");
 }
 
+TEST(Pairs, NumbersMayHaveAPlus) {
+  EXPECT_EQ(run_tool({"pairs", "-"}, {"+0 0 0 +1.5 1 1\n+1.5e+0 0 0 2 1 1\n", false}).out, "boxes 2, pairs 1\n");
+  for (const char* const word : {"+-1", "++1", "+"})
+    expect_refusal(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n" + std::string(word) + " 0 0 1 1 1\n", false}),
+                   {"standard input:2: \"" + std::string(word) + "\" is not a number"});
+}
+
 TEST(Pairs, NoBoxesAreNoPairs) {
   EXPECT_EQ(run_tool({"pairs", "-"}).out, "boxes 0, pairs 0\n");
 }

@@ -95,12 +95,12 @@ void Polygons::add(const std::vector<std::uint32_t>& corners) {
 }
 
 void Polygons::finish() {
-  for (const std::uint32_t corner : corners_)
-    if (corner >= mesh_.vertices.size())
-      throw std::runtime_error("a face with a vertex that is not there: there are " +
-                               std::to_string(mesh_.vertices.size()));
   std::size_t begin = 0;
   for (std::size_t face = 0; face < ends_.size(); ++face) {
+    for (std::size_t i = begin; i < ends_[face]; ++i)
+      if (corners_[i] >= mesh_.vertices.size())
+        throw std::runtime_error("face " + std::to_string(face) + " has vertex " + std::to_string(corners_[i]) +
+                                 ", both from 0 on: there are " + std::to_string(mesh_.vertices.size()));
     cut(static_cast<std::uint32_t>(face), corners_.data() + begin, ends_[face] - begin);
     begin = ends_[face];
   }

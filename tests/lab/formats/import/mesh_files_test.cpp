@@ -225,7 +225,7 @@ TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {
 TEST(MeshFiles, ThatAreBrokenSayWhereAndWhy) {
   EXPECT_EQ(complaint(read_obj, "v 0 0\n"), "line 1: cut off, or a vertex with fewer than three coordinates");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nv 0 zero 0\n"), "line 2: no number where a coordinate should be: 'zero'");
-  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 2 3\n"), "a face with a vertex that is not there: there are 1");
+  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 1 1\nf 1 2 3\n"), "face 1 has vertex 1, both from 0 on: there are 1");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 0 1\n"), "line 2: a face with a vertex that is not there: '0'");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf -1 -2 1\n"), "line 2: a face with a vertex that is not there: '-2'");
   EXPECT_EQ(complaint(read_off, "OFF\n2 1 0\n0 0 0\n"), "line 3: cut off, or more than one vertex or face in a line");

@@ -103,7 +103,7 @@ TEST(Mesh, OfTriangleStripsHasThemAll) {
   EXPECT_EQ(complaint(cut), cut + ": 'tristrips' 0 of 1: cut off");
   text.replace(text.find("-1 1 5"), 2, "99");
   const std::string wrong = scratch.write("wrong.ply", text);
-  EXPECT_EQ(complaint(wrong), wrong + ": a face with a vertex that is not there: there are 8");
+  EXPECT_EQ(complaint(wrong), wrong + ": face 6 has vertex 99, both from 0 on: there are 8");
 }
 
 TEST(Mesh, WithVerticesLeftOverIsRefusedOrSaysSo) {
@@ -150,8 +150,9 @@ TEST(BrokenMesh, IsRefusedWithOneLine) {
   refuse("empty.obj", "", "");
   refuse("points.obj", "v 0 0 0\nv 1 0 0\n", "");
   refuse("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangles in it");
-  refuse("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "");
-  refuse("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "beyond 100 km");
+  refuse("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n",
+         "vertex 1, from 0 on: a coordinate that is not a finite number");
+  refuse("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 1, from 0 on: a coordinate beyond 100 km");
   refuse("missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "");
   refuse("text.gltf", "hello", "");
   refuse("text.stl", "hello", "");
