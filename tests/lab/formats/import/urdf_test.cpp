@@ -67,6 +67,10 @@ TEST(Urdf, MotorsHoldOrDrive) {
   EXPECT_EQ(import(post_and_bar, options)["bodies"][1]["sleep"], false);
   options.motors["knee"] = {1, 1};
   EXPECT_EQ(complaint(post_and_bar, options), "no joint called \"knee\" for a motor");
+  options.motors.erase("knee");
+  for (const std::string type : {"fixed", "floating"})
+    EXPECT_EQ(complaint(without(post_and_bar, "revolute", type), options),
+              "joint \"hinge\" is " + type + ": no motor moves it");
 }
 
 TEST(Urdf, JointsOfEveryKind) {
@@ -178,6 +182,15 @@ TEST(Urdf, WhatScenesHaveNoWordForIsNamed) {
                                   "effort=\"30\" velocity=\"3\"/><dynamics damping=\"0.2\"/>"));
   EXPECT_EQ(all["notes"], json::parse(R"(["damping of joint \"hinge\": left out",
       "limit of speed of joint \"hinge\": left out"])"));
+}
+
+TEST(Urdf, ElementsOfOtherProgramsAreNamed) {
+  const json all =
+      import(without(post_and_bar, "</robot>", R"(<gazebo reference="bar"><mu1>0.7</mu1></gazebo></robot>)"));
+  EXPECT_EQ(all["notes"], json::parse(R"(["elements <gazebo>: left out"])"));
+  const json contact = import(without(post_and_bar, "<link name=\"bar\">",
+                                      R"(<link name="bar"><contact><lateral_friction value="0.2"/></contact>)"));
+  EXPECT_EQ(contact["notes"], json::parse(R"(["elements <contact>: left out"])"));
 }
 
 /// The tensor that a body of the scene has, about its centre and along the axes of the file.
