@@ -111,8 +111,10 @@ TriangleMesh read_within(const Limits& limits, const std::string& path, const Ve
   check_is_file(path);
   if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .off, .dae, .gltf, .glb)");
   const RawMesh raw = read_raw_mesh(path, up);
-  if (raw.vertices.size() > limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
+  // Some kinds of files have three vertices for each triangle; those at the same place are one below.
+  if (raw.vertices.size() > 3 * limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
   TriangleMesh mesh = welded_within(limits, path, raw, scale);
+  if (mesh.vertices.size() > limits.most) fail(path, limits.too_many);
   check_is_whole(path, mesh);
   return mesh;
 }

@@ -131,6 +131,22 @@ TEST(Mesh, ScaledAndMirroredStaysInsideOut) {
   EXPECT_NEAR(measure(mirrored.vertices, mirrored.triangles).centroid[2], -0.75, 1e-12);
 }
 
+/// Facets of STL have their corners to themselves.
+TEST(Mesh, HasAMillionTrianglesWhateverTheirFileRepeats) {
+  const ScratchDirectory scratch;
+  const TriangleMesh once = tetrahedron();
+  TriangleMesh solid = once;
+  while (solid.triangles.size() < 350'000)
+    solid.triangles.insert(solid.triangles.end(), once.triangles.begin(), once.triangles.end());
+  const TriangleMesh mesh = read_mesh(scratch.write("t.stl", as_binary_stl(solid)));
+  EXPECT_EQ(mesh.triangles.size(), 350'000u);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 1'000'001; ++i) text += "f 1 2 3\n";
+  const std::string many = scratch.write("many.obj", text);
+  EXPECT_EQ(complaint(many), many + ": more than a million vertices or triangles");
+}
+
 TEST(Mesh, HasNoTrianglesWithoutArea) {
   const ScratchDirectory scratch;
   const TriangleMesh mesh = read_mesh(scratch.write("t.obj", as_obj(tetrahedron()) + "f 1 2 2\nv 2 0 0\nf 1 2 5\n"));
