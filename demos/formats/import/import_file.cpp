@@ -2,7 +2,6 @@
 #include "formats/import/import_file.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "formats/import/file_kind.hpp"
@@ -38,9 +37,6 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
     add_mesh_body(path, options, fragment);
     return fragment.text();
   }
-  Allowance allowance = allowance_for(std::filesystem::file_size(path));
-  // A small robot may name large meshes, and cutting them up takes its time.
-  if (kind == "urdf") allowance = {30, 60, std::size_t{4} << 30};
   return guarded(
       path,
       [&] {
@@ -50,7 +46,7 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
           read_bullet(path, fragment);
         return fragment.text();
       },
-      allowance);
+      allowance_for(path));
 }
 
 }  // namespace boxstream::imports

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <map>
 
 #include "base/read_file.hpp"
@@ -131,7 +130,7 @@ TriangleMesh read_guarded(const Limits& limits, const std::string& path, const V
         put(reply, mesh.faces);
         return reply;
       },
-      allowance_for(std::filesystem::file_size(path)));
+      allowance_for(path));
   TriangleMesh mesh;
   std::size_t at = 0;
   if (!take(bytes, at, limits.most, mesh.vertices) || !take(bytes, at, limits.most, mesh.triangles) ||
