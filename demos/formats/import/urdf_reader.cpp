@@ -22,6 +22,9 @@ namespace {
 constexpr std::size_t most_text_bytes = std::size_t{32} << 20;
 constexpr std::size_t most_links = 10'000;
 
+/// What scenes take, in m and in N or N m. Files have larger numbers for joints without limits.
+constexpr double farthest = 1e5, most_force = 1e9;
+
 /// urdfdom says only to a log what is wrong; its first complaint is the nearest to the cause.
 class FirstComplaint final : public console_bridge::OutputHandler {
  public:
@@ -298,6 +301,9 @@ class Robot {
         left_out("limits beyond half a turn", joint);
         return;
       }
+    } else if (low < -farthest || high > farthest) {
+      left_out("limits beyond 100 km", joint);
+      return;
     }
     item["limits"] = {low, high};
   }
@@ -309,7 +315,7 @@ class Robot {
       constexpr double plenty = 1e5;  // N m or N
       const bool has_effort = joint.limits && joint.limits->effort > 0;
       if (!has_effort) say("held with more than enough, for it has no effort: joint ", joint.name);
-      item["motor"] = {{"speed", 0}, {"max_force", has_effort ? joint.limits->effort : plenty}};
+      item["motor"] = {{"speed", 0}, {"max_force", has_effort ? std::min(joint.limits->effort, most_force) : plenty}};
     }
   }
 

@@ -88,6 +88,25 @@ TEST(Urdf, JointsOfEveryKind) {
             "joint \"hinge\": planar joints are not supported");
 }
 
+/// As generators of robots write them for "unlimited".
+TEST(Urdf, NumbersWithoutMeaningAreNoLimits) {
+  const auto slider = [](const std::string& limits) {
+    return without(without(post_and_bar, "\"revolute\"", "\"prismatic\""), R"(lower="-0.5" upper="1" effort="30")",
+                   limits);
+  };
+  for (const char* const limits :
+       {R"(lower="-1e7" upper="1e7" effort="30")", R"(lower="-0.25" upper="1e16" effort="30")"}) {
+    const json all = import(slider(limits));
+    EXPECT_FALSE(all["joints"][0].contains("limits"));
+    EXPECT_EQ(all["notes"], json::parse(R"(["limits beyond 100 km of joint \"hinge\": left out"])"));
+  }
+  EXPECT_EQ(import(slider(R"(lower="-1e5" upper="1e5" effort="30")"))["joints"][0]["limits"],
+            json::parse("[-1e5, 1e5]"));
+  ImportOptions options;
+  options.hold = true;
+  EXPECT_EQ(import(slider(R"(lower="0" upper="2" effort="4e12")"), options)["joints"][0]["motor"]["max_force"], 1e9);
+}
+
 TEST(Urdf, AMassThatIsMissingComesFromADensityOrIsAnError) {
   const std::string text = without(post_and_bar, R"(<inertial><origin xyz="0.5 0 0"/><mass value="2"/>
       <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)");
