@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -111,9 +112,7 @@ void take_truth(const AccuracyOptions& options, accuracy::Request& request) {
   if (!options.truth.ends_with(".csv") && !std::ifstream(options.truth))
     throw BadInput("--truth " + unknown_word("closed form", options.truth, closed_form_names()) +
                    "; or a number, POINTER=NUMBER, FILE.csv");
-  std::ifstream file(options.truth);
-  if (!file) throw BadInput("--truth: cannot read " + options.truth);
-  files::note_read(options.truth);
+  std::istringstream file(files::read_file(options.truth, files::most_of_text));
   request.truth.points = accuracy::read_truth(file, options.truth);
   request.measures.insert(request.measures.begin(), accuracy::parse_measure("truth"));
 }
