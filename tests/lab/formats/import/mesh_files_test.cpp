@@ -290,6 +290,20 @@ TEST(MeshFiles, OfColladaSayThatNumbersAreRounded) {
   EXPECT_EQ(imports::rounding_in_collada("<source id='p'><float_array>0.1"), "");
 }
 
+/// As many as there are parts in a model of a building; attributes may have lines to themselves.
+TEST(MeshFiles, OfColladaMayHaveManySources) {
+  constexpr int count = 20'000;
+  std::string sources, inputs;
+  for (int i = 0; i < count; ++i) {
+    const std::string id = "s" + std::to_string(i);
+    sources += "<source\n\tid='" + id + "'><float_array>0.3 0.25 0.7</float_array></source>";
+    inputs += "<input\tsemantic='POSITION'\n source='#" + id + "'/>";
+  }
+  const std::string rounded = imports::rounding_in_collada(sources + inputs + inputs);
+  EXPECT_EQ(rounded.substr(0, rounded.find(" coord")), "40000 of 60000");
+  EXPECT_EQ(imports::rounding_in_collada(sources), "");
+}
+
 TEST(MeshFiles, AreSurfacesWithTheFilesFaces) {
   const ScratchDirectory scratch;
   const auto of = [&](const std::string& name, const std::string& text) {
