@@ -32,6 +32,8 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
   const std::string kind = file_kind(path);
   if (!is_importable(path))
     fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf, .glb)");
+  if (!is_mesh_file(path) && options.scale != scenes::Vec3{1, 1, 1})
+    fail(path, "only meshes have a scale: the file is in metres");
   Fragment fragment(place_of(options, kind == "urdf"));
   if (is_mesh_file(path)) {
     add_mesh_body(path, options, fragment);

@@ -108,6 +108,7 @@ void read_import(Fields& fields, const Scene& scene, const Names& names, ImportG
   if (const auto up = fields.find("up")) options.z_up = up->choice({"y", "z"}) == 1;
   options.fixed_base = fields.boolean("fixed_base", false);
   options.keep_still = fields.boolean("static", false);
+  options.scale = read_scale(fields);
   options.hold = fields.boolean("hold", false);
   if (const auto density = fields.find("density")) options.density = density->number(positive(1e5));
   if (const auto parts = fields.find("decompose")) options.parts = read_parts(*parts);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "formats/import/geometry.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/expand.hpp"
@@ -106,6 +108,23 @@ TEST_F(ImportingScene, HasABodyFromAMesh) {
   EXPECT_NEAR(expanded.bodies[0].position[0], 1 + 2.5 / 3, 1e-9);
   EXPECT_NEAR(expanded.bodies[0].position[1], 2.5 / 3, 1e-9);
   EXPECT_NEAR(expanded.bodies[0].position[2], 0.5, 1e-9);
+}
+
+/// An L of three cubes; a scale of 20 makes them 40 m wide, one of 30 makes them 60 m wide.
+TEST_F(ImportingScene, HasABodyFromAMeshInAnotherUnit) {
+  const auto import_with = [](const std::string& scale) {
+    return R"("generators": [{"type": "import", "file": "ell.obj", "density": 7, "scale": )" + scale + "}]";
+  };
+  const auto notes_of = [](const Scene& scene) { return std::get<scenes::ImportGenerator>(scene.generators[0]).notes; };
+  const Scene scene = load(import_with("20"));
+  EXPECT_NEAR(*expand(scene).bodies[0].traits.mass, 7 * 3 * 20 * 20 * 20, 1e-6);
+  const std::string large = "the mesh is 60 m wide: a scale of 0.001 is for millimetres";
+  const auto notes = notes_of(scene), notes_of_large = notes_of(load(import_with("[1, 30, 1]")));
+  EXPECT_EQ(std::count(notes.begin(), notes.end(), large), 0);
+  EXPECT_EQ(std::count(notes_of_large.begin(), notes_of_large.end(), large), 1);
+  scratch.write("r.urdf", "<robot name='r'/>");
+  EXPECT_EQ(complaint(R"("generators": [{"type": "import", "file": "r.urdf", "scale": 2}])"),
+            "r.urdf: only meshes have a scale: the file is in metres");
 }
 
 TEST_F(ImportingScene, CountsIndicesFromWhereItsThingsAre) {
