@@ -12,7 +12,9 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "formats/import/import_file.hpp"
+#include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -115,7 +117,11 @@ int run_import(const ImportOptions& options) {
     if (!parts[block].empty()) scene[block] = parts[block];
   if (options.floor) add_floor(scene, *options.floor);
   const std::string text = laid_out(scene);
-  scenes::parse_scene(text, options.file);  // says what is wrong before anything is written
+  try {
+    scenes::parse_scene(text, options.file);  // says what is wrong before anything is written
+  } catch (const scenes::SceneError& error) {
+    throw scenes::SceneError(scenes::with_name(error.what(), options.file, nlohmann::json::parse(text)));
+  }
   file.stream() << text;
   file.commit();
   for (const Json& note : parts["notes"]) remark("note: " + note.get<std::string>());

@@ -64,6 +64,20 @@ bool is_other_gravity(const WorldSettings& world, const Vec3& gravity) {
          std::abs(world.gravity[1] - gravity[1]) > rounding || std::abs(world.gravity[2] - gravity[2]) > rounding;
 }
 
+Scene load_blocks(const nlohmann::json& document, const std::string& file) try {
+  Fields blocks(Node(document, "", file));
+  Scene part;
+  Names inside;
+  load_materials(blocks.require("materials"), inside);
+  load_shapes(blocks.require("shapes"), part, inside);
+  load_bodies(blocks.require("bodies"), part, inside);
+  load_joints(blocks.require("joints"), part, inside);
+  load_exclusions(blocks.require("exclusions"), part, inside);
+  return part;
+} catch (const SceneError& error) {
+  throw SceneError(with_name(error.what(), file, document));
+}
+
 }  // namespace
 
 bool is_foreign_mesh(const Node& file) {
@@ -117,14 +131,7 @@ void read_import(Fields& fields, const Scene& scene, const Names& names, ImportG
     for (const Node& folder : packages->list(0, 100)) options.packages.push_back(folder_beside(folder));
 
   const nlohmann::json document = parse_json(imports::import_file(generator.file, options), generator.file);
-  Fields blocks(Node(document, "", generator.file));
-  Scene part;
-  Names inside;
-  load_materials(blocks.require("materials"), inside);
-  load_shapes(blocks.require("shapes"), part, inside);
-  load_bodies(blocks.require("bodies"), part, inside);
-  load_joints(blocks.require("joints"), part, inside);
-  load_exclusions(blocks.require("exclusions"), part, inside);
+  Scene part = load_blocks(document, generator.file);
   generator.shapes = std::move(part.shapes);
   generator.bodies = std::move(part.bodies);
   generator.joints = std::move(part.joints);

@@ -145,6 +145,28 @@ TEST_F(ImportingScene, CountsIndicesFromWhereItsThingsAre) {
 
 #endif
 
+#ifdef BOXSTREAM_HAS_URDFDOM
+
+TEST_F(ImportingScene, NamesTheBodyOrTheJointThatIsWrong) {
+  const auto robot = [&](const std::string& mass, const std::string& place) {
+    const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+    scratch.write("r.urdf", "<robot name='r'><link name='base'/><link name='fore/arm'><inertial><origin xyz='0 0 -" +
+                                place + "'/><mass value='" + mass + "'/>" + inertia +
+                                "<joint name='j' type='continuous'><parent link='base'/><child link='fore/arm'/>"
+                                "<origin xyz='0 0 " +
+                                place + "'/><axis xyz='0 1 0'/></joint></robot>");
+    return complaint(R"("generators": [{"type": "import", "file": "r.urdf"}])");
+  };
+  EXPECT_EQ(robot("4e10", "0"),
+            "r.urdf: /bodies/0/mass: must be at most 1000000000, got 40000000000 (body \"fore/arm\")");
+  // A body at the origin, on a joint that is far off.
+  const std::string far = robot("4", "3e5");
+  EXPECT_TRUE(far.starts_with("r.urdf: /joints/0/pivot/1: must be at most 100000, got ")) << far;
+  EXPECT_TRUE(far.ends_with(" (joint of body \"fore/arm\")")) << far;
+}
+
+#endif
+
 TEST_F(ImportingScene, OfAnotherKindOfFileIsRefused) {
   scratch.write("robot.sdf", "<sdf/>");
   EXPECT_EQ(
