@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -111,9 +112,7 @@ void take_truth(const AccuracyOptions& options, accuracy::Request& request) {
   if (!options.truth.ends_with(".csv") && !std::ifstream(options.truth))
     throw BadInput("--truth " + unknown_word("closed form", options.truth, closed_form_names()) +
                    "; or a number, POINTER=NUMBER, FILE.csv");
-  std::ifstream file(options.truth);
-  if (!file) throw BadInput("--truth: cannot read " + options.truth);
-  files::note_read(options.truth);
+  std::istringstream file(files::read_file(options.truth, files::most_of_text));
   request.truth.points = accuracy::read_truth(file, options.truth);
   request.measures.insert(request.measures.begin(), accuracy::parse_measure("truth"));
 }
@@ -146,7 +145,7 @@ accuracy::Request request_of(const AccuracyOptions& options) {
   request.elsewhere = other_precision();
   request.stop = interrupted;
   const scenes::Scene scene = scenes::parse_scene(request.scene.dump(), request.file);
-  note_old_words(scene);
+  note_what_was_read(scene);
   if (options.knobs.empty()) request.knobs = accuracy::usual_knobs(scene, request.elsewhere != nullptr);
   if (options.advise || (options.knobs.empty() && !options.bound.empty())) request.seek.emplace();
   if (request.seek && !options.bound.empty()) request.seek->bound = accuracy::parse_bound(options.bound);

@@ -12,7 +12,9 @@
 #include "boxstream/shared/print.hpp"
 #include "boxstream/shared/report.hpp"
 #include "formats/import/import_file.hpp"
+#include "formats/scene_json/json_text.hpp"
 #include "formats/scene_json/load_scene.hpp"
+#include "formats/scene_model/scene_error.hpp"
 
 namespace boxstream::tool {
 namespace {
@@ -25,6 +27,7 @@ struct ImportOptions {
   bool fixed_base = false;
   bool hold = false;
   bool keep_still = false;
+  double scale = 1;  // of a mesh
   std::optional<double> density;
   std::optional<int> hulls;  // most convex parts of a mesh; none: as is usual
   double error = 0.05;
@@ -39,6 +42,7 @@ imports::ImportOptions options_of(const ImportOptions& options) {
   result.fixed_base = options.fixed_base;
   result.hold = options.hold;
   result.keep_still = options.keep_still;
+  result.scale.fill(options.scale);
   result.density = options.density;
   result.packages = options.packages;
   if (options.hulls) result.parts = imports::PartsOptions{static_cast<std::size_t>(*options.hulls), options.error};
@@ -113,7 +117,11 @@ int run_import(const ImportOptions& options) {
     if (!parts[block].empty()) scene[block] = parts[block];
   if (options.floor) add_floor(scene, *options.floor);
   const std::string text = laid_out(scene);
-  scenes::parse_scene(text, options.file);  // says what is wrong before anything is written
+  try {
+    scenes::parse_scene(text, options.file);  // says what is wrong before anything is written
+  } catch (const scenes::SceneError& error) {
+    throw scenes::SceneError(scenes::with_name(error.what(), options.file, nlohmann::json::parse(text)));
+  }
   file.stream() << text;
   file.commit();
   for (const Json& note : parts["notes"]) remark("note: " + note.get<std::string>());
@@ -136,6 +144,8 @@ Action set_up_import(CommandLine& command) {
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
   command.add_flag("--static", options->keep_still, "Mesh: a static triangle mesh in place of convex parts");
+  add_number(command, "--scale", options->scale, "Mesh: metres for each unit of the file, 0.001 for mm; default: 1",
+             1e-6, 1e4, "S");
   add_number(command, "--density", options->density, "kg/m^3 of meshes (1000) and of links without a mass (an error)",
              1e-6, 1e5, "D");
   add_number(command, "--hulls", options->hulls, "Cut meshes into up to N convex parts; 16, for URDF 1", 1, 256);
@@ -153,9 +163,10 @@ extern const Command import_command{"import", "Make a scene of a robot, a world 
   boxstream import world.bullet -o world.json
   boxstream import part.stl -o part.json --up z --hulls 32 --floor -1
 
-FILE is a robot (.urdf), a world (.bullet) or a mesh (.obj, .stl, .ply, .off, .dae, .gltf, .glb). A mesh becomes one body of convex
-parts. What scenes cannot express is named on standard error, a line each. Scenes can also name such files themselves:
-generators of type import, shapes with "file".
+FILE is a robot (.urdf), a world (.bullet) or a mesh (.obj, .stl, .ply, .off, .dae, .gltf, .glb). A mesh becomes one body
+of convex parts; its file does not say its unit, which is a metre unless --scale says otherwise. What scenes cannot
+express is named on standard error, a line each. Scenes can also name such files themselves: generators of type import,
+shapes with "file".
 
 Exit code: 0; 2 for a file that cannot be read or carried over, with nothing written.)",
                                     set_up_import};

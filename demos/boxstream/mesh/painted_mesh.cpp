@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -42,16 +43,26 @@ std::uint8_t byte_of(float channel) {
   return static_cast<std::uint8_t>(std::lround(255 * channel));
 }
 
+bool are_floats(const std::vector<scenes::Vec3>& vertices) {
+  return std::all_of(vertices.begin(), vertices.end(), [](const scenes::Vec3& v) {
+    return std::all_of(v.begin(), v.end(), [](double x) { return double{static_cast<float>(x)} == x; });
+  });
+}
+
 void write_ply(const PaintedMesh& painted, std::ostream& out) {
-  const bool has_colours = !painted.colours.empty();
+  const bool has_colours = !painted.colours.empty(), has_floats = are_floats(painted.mesh.vertices);
   std::string bytes = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n",
-      painted.mesh.vertices.size());
+      "ply\nformat binary_little_endian 1.0\nelement vertex {0}\nproperty {1} x\nproperty {1} y\nproperty {1} z\n",
+      painted.mesh.vertices.size(), has_floats ? "float" : "double");
   if (has_colours) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   bytes += fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n",
                        painted.mesh.triangles.size());
   for (std::size_t i = 0; i < painted.mesh.vertices.size(); ++i) {
-    for (const double x : painted.mesh.vertices[i]) put(bytes, static_cast<float>(x));
+    for (const double x : painted.mesh.vertices[i])
+      if (has_floats)
+        put(bytes, static_cast<float>(x));
+      else
+        put(bytes, x);
     if (!has_colours) continue;
     const Colour c = painted.colours[i];
     for (const float channel : {c.r, c.g, c.b}) put(bytes, byte_of(channel));

@@ -18,8 +18,8 @@ struct PaintedMesh {
   picture::ColourBar bar{};              ///< on a .png
 };
 
-/// A file that a surface goes to, by the ending of its name: .ply and .glb have coordinates as floats, .png is a
-/// picture of it.
+/// A file that a surface goes to, by the ending of its name: .ply has coordinates as floats, or as doubles where some
+/// are no floats; .glb has floats; .png is a picture of it.
 class PaintedMeshFile {
  public:
   /// Throws BadInput for any other ending, and as files::OutputFile does.

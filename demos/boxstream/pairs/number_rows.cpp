@@ -2,11 +2,14 @@
 #include "boxstream/pairs/number_rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -19,27 +22,30 @@ constexpr std::string_view separators = " \t,\r";
 // Ends inputs that have no end.
 constexpr std::size_t longest_line = 65536, most_lines = 50'000'000;
 
-/// The next word of `line`, which is cut off; empty at the end.
-std::string_view next_word(std::string_view& line) {
-  const std::size_t first = std::min(line.find_first_not_of(separators), line.size());
-  line.remove_prefix(first);
-  const std::string_view word = line.substr(0, line.find_first_of(separators));
-  line.remove_prefix(word.size());
-  return word;
+/// The first `size` characters of `line`, or all that it has, which are cut off.
+std::string_view cut(std::string_view& line, std::size_t size) {
+  const std::string_view part = line.substr(0, size);
+  line.remove_prefix(part.size());
+  return part;
 }
 
 /// Empty, or why `line` is no row of numbers.
 std::string parse(std::string_view line, std::size_t most, std::vector<double>& row) {
   row.clear();
-  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+  for (;;) {
+    const std::string_view gap = cut(line, line.find_first_not_of(separators));
+    if (line.empty()) return {};
+    if (std::count(gap.begin(), gap.end(), ',') > 1) return "an empty field between two commas";
+    const std::string_view word = cut(line, line.find_first_of(separators));
+    // from_chars knows no sign but a minus.
+    const bool has_plus = word[0] == '+' && word.substr(1, 1) != "-";
     if (row.size() == most) return fmt::format("more than {} numbers", most);
     double& value = row.emplace_back();
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = std::from_chars(word.data() + has_plus, word.data() + word.size(), value);
     if (error == std::errc::result_out_of_range) return fmt::format("\"{}\" is out of range", word);
     if (error != std::errc{} || end != word.data() + word.size()) return fmt::format("\"{}\" is not a number", word);
     if (std::isnan(value)) return "NaN is not a coordinate";
   }
-  return {};
 }
 
 /// The next line without its end; false at the end of the file. Throws BadInput for one that is no line of numbers.
@@ -55,25 +61,83 @@ bool next_line(std::istream& in, const std::string& name, std::size_t number, st
   return !line.empty();
 }
 
+/// Takes the next name off a header that begins with one, without the quotes around it.
+std::string_view next_name(std::string_view& line, std::string_view ends) {
+  if (line[0] == '"' || line[0] == '\'') {
+    const char quote = cut(line, 1)[0];
+    const std::string_view name = cut(line, line.find(quote));
+    cut(line, 1);
+    return name;
+  }
+  const std::string_view name = cut(line, line.find_first_of(ends));
+  return name.substr(0, name.find_last_not_of(separators) + 1);
+}
+
 /// Names of columns, or anything else that has no number in it.
 bool is_header(std::string_view line, std::vector<std::string>& names) {
-  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+  cut(line, line.find_first_not_of(separators));
+  for (const std::string_view comment : {"%", "//"})
+    if (line.starts_with(comment)) cut(line, comment.size());
+  // Between commas or tabs, names may have blanks in them.
+  const auto has = [line](char c) { return line.find(c) != line.npos; };
+  const std::string_view ends = has(',') ? "," : has('\t') ? "\t" : separators;
+  for (cut(line, line.find_first_not_of(separators)); !line.empty(); cut(line, line.find_first_not_of(separators))) {
+    const std::string_view name = next_name(line, ends);
     double value = 0;
-    const char* const word_end = word.data() + word.size();
-    const auto [end, error] = std::from_chars(word.data(), word_end, value);
-    if (error != std::errc::invalid_argument && end == word_end) return false;
-    // "0;0;0" and "\"1\"" are no names, but numbers that are written otherwise.
-    const std::string_view bare = word.substr(std::min(word.find_first_not_of("\"'"), word.size()));
-    if (!bare.empty() && bare.find_first_of("0123456789+-.") == 0) return false;
-    names.emplace_back(word);
+    const char* const name_end = name.data() + name.size();
+    const auto [end, error] = std::from_chars(name.data(), name_end, value);
+    if (error != std::errc::invalid_argument && end == name_end) return false;
+    // "0;0;0" is no name, but numbers that are written otherwise.
+    if (!name.empty() && name.find_first_of("0123456789+-.") == 0) return false;
+    names.emplace_back(name);
   }
   return true;
 }
 
-/// Whether a column of this name has radii.
-bool means_radius(std::string name) {
+std::string lower_case(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  return name == "r" || name.find("rad") != name.npos;
+  return name;
+}
+
+/// Whether a column of this name has radii.
+bool means_radius(const std::string& name) {
+  const std::string lower = lower_case(name);
+  return lower == "r" || lower.find("rad") != lower.npos;
+}
+
+/// Whether a column of this name has numbers of rows or times, as tables often have in front.
+bool is_no_coordinate(const std::string& name) {
+  constexpr std::string_view others[] = {"", "id", "index", "frame", "t", "time"};
+  return std::find(std::begin(others), std::end(others), lower_case(name)) != std::end(others);
+}
+
+/// Why columns of these names are not `dimensions` coordinates and perhaps a radius; empty if they are.
+std::string why_no_balls(const std::vector<std::string>& names, std::size_t dimensions) {
+  for (std::size_t d = 0; d < dimensions; ++d)
+    if (is_no_coordinate(names[d]))
+      return fmt::format("column {} would be {}, and is called \"{}\": leave it out", d + 1, "xyz"[d], names[d]);
+  if (names.size() > dimensions && !means_radius(names.back()))
+    return fmt::format("the last column would be radii, and is called \"{}\": leave it out, or call it radius",
+                       names.back());
+  return {};
+}
+
+bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
+  return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return name.find(part) != name.npos; });
+}
+
+/// Why columns of these names are no boxes; empty if they are, or have names that say nothing of that.
+std::string why_no_boxes(const std::vector<std::string>& names) {
+  std::string ends;  // '<' for a minimum, '>' for a maximum
+  for (const std::string& name : names) {
+    const std::string lower = lower_case(name);
+    if (has_any(lower, {"min", "lo"}))
+      ends += '<';
+    else if (has_any(lower, {"max", "hi"}))
+      ends += '>';
+  }
+  if (ends.size() != 6 || ends == "<<<>>>") return {};
+  return fmt::format("the columns are called {}: three minima come first, then three maxima", fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -94,10 +158,13 @@ void read_number_rows(std::istream& in, const std::string& name, std::size_t mos
     text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(separators) == std::string_view::npos) continue;
     if (std::exchange(first, false) && is_header(text, header)) {
-      if (names != nullptr) *names = std::move(header);
+      if (names != nullptr) *names = header;
       continue;
     }
     std::string reason = parse(text, most, row);
+    // One name is a title. A name more or less is that of a column that would be taken for another.
+    if (reason.empty() && header.size() > 1 && header.size() != row.size())
+      reason = fmt::format("the first line names {} columns, the row has {} numbers", header.size(), row.size());
     if (reason.empty()) reason = take(row);
     if (!reason.empty()) throw BadInput(fmt::format("{}:{}: {}", name, number, reason));
   }
@@ -105,19 +172,20 @@ void read_number_rows(std::istream& in, const std::string& name, std::size_t mos
 
 std::vector<Aabb64> read_boxes(std::istream& in, const std::string& name, std::size_t first_line) {
   std::vector<Aabb64> boxes;
-  read_number_rows(
-      in, name, 6,
-      [&](const std::vector<double>& row) -> std::string {
-        if (row.size() < 6) return fmt::format("{} numbers, expected 6", row.size());
-        Aabb64& box = boxes.emplace_back();
-        for (std::size_t d = 0; d < 3; ++d) {
-          if (row[d] > row[d + 3]) return fmt::format("min > max on the {} axis", "xyz"[d]);
-          box.min[d] = row[d];
-          box.max[d] = row[d + 3];
-        }
-        return {};
-      },
-      first_line);
+  std::vector<std::string> names;
+  const auto take = [&](const std::vector<double>& row) -> std::string {
+    if (row.size() < 6) return fmt::format("{} numbers, expected 6", row.size());
+    if (boxes.empty())
+      if (std::string reason = why_no_boxes(names); !reason.empty()) return reason;
+    Aabb64& box = boxes.emplace_back();
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (row[d] > row[d + 3]) return fmt::format("min > max on the {} axis", "xyz"[d]);
+      box.min[d] = row[d];
+      box.max[d] = row[d + 3];
+    }
+    return {};
+  };
+  read_number_rows(in, name, 6, take, first_line, &names);
   return boxes;
 }
 
@@ -132,9 +200,8 @@ Balls read_balls(std::istream& in, const std::string& name, std::optional<int> d
       const auto least = static_cast<std::size_t>(balls.dimensions);
       if (columns < std::max<std::size_t>(2, least) || columns > least + 1)
         return fmt::format("{} numbers, expected {} or {}", columns, std::max<std::size_t>(2, least), least + 1);
-      if (columns > least && names.size() == columns && !means_radius(names.back()))
-        return fmt::format("the last column would be radii, and is called \"{}\": leave it out, or call it radius",
-                           names.back());
+      if (names.size() == columns)
+        if (std::string reason = why_no_balls(names, least); !reason.empty()) return reason;
     }
     if (row.size() != columns) return fmt::format("{} numbers, {} in the rows before", row.size(), columns);
     for (const double value : row)

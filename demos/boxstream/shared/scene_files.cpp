@@ -85,13 +85,16 @@ fs::path resolve_scene(const std::string& name, SceneKind kind) {
       fmt::format("unknown scene '{}'{} (no such file either; see boxstream list)", name, did_you_mean(name, names)));
 }
 
-void note_old_words(const scenes::Scene& scene) {
+void note_what_was_read(const scenes::Scene& scene) {
   if (!scene.old_words.empty()) remark(fmt::format("note: {}: {}", scene.file, fmt::join(scene.old_words, ", ")));
+  for (const scenes::Generator& generator : scene.generators)
+    if (const auto* const import = std::get_if<scenes::ImportGenerator>(&generator))
+      for (const std::string& note : import->notes) remark(fmt::format("note: {}: {}", import->file, note));
 }
 
 scenes::Scene load_scaled(const std::string& name, double scale) {
   scenes::Scene scene = scenes::load_scene(resolve_scene(name, SceneKind::simulation).string());
-  note_old_words(scene);
+  note_what_was_read(scene);
   if (scale == 1) return scene;
   try {
     return scenes::scaled(scene, scale);

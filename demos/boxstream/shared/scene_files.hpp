@@ -31,11 +31,12 @@ CLI::Option* add_scene(CommandLine& command, std::string& scene, SceneKind kind)
 /// the shipped scenes of this kind if it is neither.
 std::filesystem::path resolve_scene(const std::string& name, SceneKind kind);
 
-/// Says on standard error, in one line, which words of the scene's file are those of an older version, if any are.
-void note_old_words(const scenes::Scene& scene);
+/// Says on standard error which words of the scene's file are those of an older version, in one line, and what the
+/// files that it imports have that the scene does not have, a line each.
+void note_what_was_read(const scenes::Scene& scene);
 
-/// The scene meant by `name`, with about `scale` times as many bodies (scenes::scaled). Old words of its
-/// file are noted. Throws BadInput, SceneError.
+/// The scene meant by `name`, with about `scale` times as many bodies (scenes::scaled), with notes as
+/// note_what_was_read() has them. Throws BadInput, SceneError.
 scenes::Scene load_scaled(const std::string& name, double scale);
 
 }  // namespace boxstream::tool

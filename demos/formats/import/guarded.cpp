@@ -13,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -158,7 +159,11 @@ std::string how_it_ended(int status) {
 
 }  // namespace
 
-Allowance allowance_for(std::uintmax_t bytes) {
+Allowance allowance_for(const std::string& path) {
+  // Small ones may name large files, and cutting up a robot's meshes takes its time.
+  const std::string kind = file_kind(path);
+  if (kind == "urdf" || kind == "gltf") return {30, 60, std::size_t{4} << 30};
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
   constexpr std::uintmax_t mebibyte = std::uintmax_t{1} << 20;
   Allowance allowance;
   allowance.cpu_seconds = static_cast<unsigned>(2 + std::min<std::uintmax_t>(bytes / mebibyte, 100));

@@ -14,8 +14,8 @@ struct Allowance {
   std::size_t memory = std::size_t{2} << 30;  // bytes on top of what the caller has
 };
 
-/// Generous limits for a file of this many bytes.
-Allowance allowance_for(std::uintmax_t bytes);
+/// Generous limits for a file of this size and kind.
+Allowance allowance_for(const std::string& path);
 
 /// What `work` returns, computed in a child process: libraries that read foreign files may crash, loop or allocate
 /// without bound on broken ones, and that must not end this program. The child has the caller's

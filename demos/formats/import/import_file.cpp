@@ -2,7 +2,6 @@
 #include "formats/import/import_file.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "formats/import/file_kind.hpp"
@@ -33,14 +32,13 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
   const std::string kind = file_kind(path);
   if (!is_importable(path))
     fail(path, "not a kind of file that is imported (.urdf, .bullet, .obj, .stl, .ply, .off, .dae, .gltf, .glb)");
+  if (!is_mesh_file(path) && options.scale != scenes::Vec3{1, 1, 1})
+    fail(path, "only meshes have a scale: the file is in metres");
   Fragment fragment(place_of(options, kind == "urdf"));
   if (is_mesh_file(path)) {
     add_mesh_body(path, options, fragment);
     return fragment.text();
   }
-  Allowance allowance = allowance_for(std::filesystem::file_size(path));
-  // A small robot may name large meshes, and cutting them up takes its time.
-  if (kind == "urdf") allowance = {30, 60, std::size_t{4} << 30};
   return guarded(
       path,
       [&] {
@@ -50,7 +48,7 @@ std::string import_file(const std::string& path, const ImportOptions& options) {
           read_bullet(path, fragment);
         return fragment.text();
       },
-      allowance);
+      allowance_for(path));
 }
 
 }  // namespace boxstream::imports

@@ -26,6 +26,7 @@ struct ImportOptions {
   bool hold = false;   // URDF: motors that keep joints where they are, as strong as <limit effort> if any
   std::map<std::string, scenes::Motor> motors;  // URDF: by name of joint
   bool keep_still = false;                      // mesh: a static triangle mesh in place of a body of convex parts
+  scenes::Vec3 scale{1, 1, 1};                  // mesh: m for each unit of the file, by axis
 };
 
 /// Whether `path` is named like a file that import_file reads: .urdf, .bullet, or a mesh.

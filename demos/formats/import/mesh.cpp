@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <map>
 
 #include "base/read_file.hpp"
@@ -73,9 +72,12 @@ TriangleMesh welded_within(const Limits& limits, const std::string& path, const 
   for (std::size_t i = 0; i < raw.vertices.size(); ++i) {
     Vec3 v{};
     for (std::size_t d = 0; d < 3; ++d) v[d] = static_cast<double>(raw.vertices[i][d]) * scale[d];
-    if (!is_finite(v)) fail(path, "a coordinate that is not a finite number");
+    const auto complain = [&](const std::string& what) {
+      fail(path, "vertex " + std::to_string(i) + ", from 0 on: " + what);
+    };
+    if (!is_finite(v)) complain("a coordinate that is not a finite number");
     for (const double x : v)
-      if (std::abs(x) > limits.max_length) fail(path, limits.too_far);
+      if (std::abs(x) > limits.max_length) complain(limits.too_far);
     const auto [place, added] = numbers.try_emplace(v, static_cast<std::uint32_t>(mesh.vertices.size()));
     if (added) mesh.vertices.push_back(v);
     number_of[i] = place->second;
@@ -108,8 +110,10 @@ TriangleMesh read_within(const Limits& limits, const std::string& path, const Ve
   check_is_file(path);
   if (!is_mesh_file(path)) fail(path, "not a kind of mesh that is known (.obj, .stl, .ply, .off, .dae, .gltf, .glb)");
   const RawMesh raw = read_raw_mesh(path, up);
-  if (raw.vertices.size() > limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
+  // Some kinds of files have three vertices for each triangle; those at the same place are one below.
+  if (raw.vertices.size() > 3 * limits.most || raw.triangles.size() > limits.most) fail(path, limits.too_many);
   TriangleMesh mesh = welded_within(limits, path, raw, scale);
+  if (mesh.vertices.size() > limits.most) fail(path, limits.too_many);
   check_is_whole(path, mesh);
   return mesh;
 }
@@ -126,7 +130,7 @@ TriangleMesh read_guarded(const Limits& limits, const std::string& path, const V
         put(reply, mesh.faces);
         return reply;
       },
-      allowance_for(std::filesystem::file_size(path)));
+      allowance_for(path));
   TriangleMesh mesh;
   std::size_t at = 0;
   if (!take(bytes, at, limits.most, mesh.vertices) || !take(bytes, at, limits.most, mesh.triangles) ||

@@ -16,7 +16,8 @@ namespace boxstream::imports {
 struct TriangleMesh {
   std::vector<scenes::Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Of a mesh from a file: which of the file's faces, from 0 on, each triangle is part of.
+  /// Of a mesh from a file: which of the file's faces, from 0 on, each triangle is part of. Of .dae, .gltf and .glb,
+  /// faces are triangles, in order of material.
   std::vector<std::uint32_t> faces = {};
 };
 
@@ -33,8 +34,10 @@ bool is_mesh_file(const std::string& path);
 /// vertices or triangles, a coordinate that is not finite or beyond 100 km; or when built without assimp.
 TriangleMesh read_mesh(const std::string& path, const scenes::Vec3& scale = {1, 1, 1});
 
-/// The surface that a file has, to be looked into rather than simulated: triangles without area stay, and there may be
-/// 20 million vertices and triangles, and coordinates up to 1e30. Throws scenes::SceneError as read_mesh() does.
+/// The surface that a file has, to be looked into rather than simulated: triangles without area stay, and coordinates
+/// may be up to 1e30. There may be 20 million vertices, and triangles, but no more than 512 MiB of both: 24 bytes a
+/// vertex and 16 a triangle, which is some 19 million triangles of a closed surface. Throws scenes::SceneError as
+/// read_mesh() does.
 TriangleMesh read_surface(const std::string& path);
 
 /// Vertices of the mesh that belong to no triangle.

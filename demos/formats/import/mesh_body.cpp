@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,8 +11,26 @@
 
 namespace boxstream::imports {
 
+namespace {
+
+/// Files of meshes do not say their unit, and many are in millimetres.
+void note_large(const TriangleMesh& mesh, Fragment& out) {
+  constexpr double large = 50;  // m
+  double widest = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto [low, high] = std::minmax_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                                 [d](const Vec3& a, const Vec3& b) { return a[d] < b[d]; });
+    widest = std::max(widest, (*high)[d] - (*low)[d]);
+  }
+  if (widest > large)
+    out.note("the mesh is " + std::to_string(std::llround(widest)) + " m wide: a scale of 0.001 is for millimetres");
+}
+
+}  // namespace
+
 void add_mesh_body(const std::string& path, const ImportOptions& options, Fragment& out) try {
-  const TriangleMesh mesh = read_mesh(path);
+  const TriangleMesh mesh = read_mesh(path, options.scale);
+  note_large(mesh, out);
   if (const std::size_t left_over = left_over_vertices(mesh); left_over > 0)
     out.note(std::to_string(left_over) + " vertices belong to no triangle: left out");
   if (const std::string note = surface_note(path); !note.empty()) out.note(note);

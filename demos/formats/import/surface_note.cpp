@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <set>
 
 #include "base/read_file.hpp"
 #include "formats/import/file_kind.hpp"
@@ -13,12 +15,12 @@
 namespace boxstream::imports {
 namespace {
 
-/// The value of an attribute of the element that begins at the front of `text`; empty if it has none.
-std::string_view attribute(std::string_view text, std::string_view name) {
-  text = text.substr(0, text.find('>'));
-  for (std::size_t at = text.find(name); at < text.size(); at = text.find(name, at + 1)) {
-    const std::string_view value = text.substr(at + name.size());
-    if (at == 0 || text[at - 1] != ' ' || value.size() < 2 || value[0] != '=') continue;
+/// The value of an attribute of a tag; empty if it has none.
+std::string_view attribute(std::string_view tag, std::string_view name) {
+  for (std::size_t at = tag.find(name); at < tag.size(); at = tag.find(name, at + 1)) {
+    const std::string_view value = tag.substr(at + name.size());
+    const bool is_name = at != 0 && std::string_view(" \t\r\n").find(tag[at - 1]) != tag.npos;
+    if (!is_name || value.size() < 2 || value[0] != '=') continue;
     return value.substr(2, value.find(value[1], 2) - 2);
   }
   return {};
@@ -42,26 +44,41 @@ struct Rounding {
   }
 };
 
-/// The numbers of the source of this id.
-std::string_view numbers_of(std::string_view text, std::string_view id) {
-  for (std::size_t at = text.find("<source"); at < text.size(); at = text.find("<source", at + 1)) {
-    if (attribute(text.substr(at), "id") != id) continue;
-    const std::size_t array = text.find("<float_array", at), begin = text.find('>', array);
-    if (array >= text.find("</source", at) || begin == text.npos) return {};
-    return text.substr(begin + 1, text.find('<', begin) - begin - 1);
+/// The numbers of sources, by id, and which of them are positions.
+struct Sources {
+  std::map<std::string_view, std::string_view> numbers;
+  std::set<std::string_view> positions;
+};
+
+/// In one pass: a text may have as many sources as there is room for.
+Sources sources_in(std::string_view text) {
+  Sources sources;
+  std::string_view id;  // of the source that the pass is in
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at + 1)) {
+    const std::size_t end = std::min(text.find_first_of("<>", at + 1), text.size());
+    const std::string_view tag = text.substr(at, end - at);
+    if (tag.starts_with("<source")) {
+      id = attribute(tag, "id");
+    } else if (tag.starts_with("</source")) {
+      id = {};
+    } else if (tag.starts_with("<float_array") && !id.empty()) {
+      const std::string_view rest = text.substr(std::min(end + 1, text.size()));
+      sources.numbers.emplace(id, rest.substr(0, rest.find('<')));
+    } else if (tag.starts_with("<input") && attribute(tag, "semantic") == "POSITION") {
+      const std::string_view reference = attribute(tag, "source");
+      if (reference.starts_with('#')) sources.positions.insert(reference.substr(1));
+    }
   }
-  return {};
+  return sources;
 }
 
 }  // namespace
 
 std::string rounding_in_collada(std::string_view text) {
+  const Sources sources = sources_in(text);
   Rounding rounding;
-  for (std::size_t at = text.find("<input"); at < text.size(); at = text.find("<input", at + 1)) {
-    const std::string_view source = attribute(text.substr(at), "source");
-    if (attribute(text.substr(at), "semantic") == "POSITION" && source.size() > 1)
-      rounding.add(numbers_of(text, source.substr(1)));
-  }
+  for (const std::string_view id : sources.positions)
+    if (const auto found = sources.numbers.find(id); found != sources.numbers.end()) rounding.add(found->second);
   if (rounding.rounded == 0) return "";
   char most[32];
   std::snprintf(most, sizeof most, "%.2g", rounding.most);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "formats/import/geometry.hpp"
@@ -53,6 +54,13 @@ struct Weight {
     moment = plus(moment, times(place.origin, m));
     inertia = sum(inertia, sum(turned(place.turn, own), of_point(m, place.origin)));
   }
+
+  void add(const Solid& solid, double density) {
+    const double m = density * solid.volume;
+    mass += m;
+    moment = plus(moment, times(solid.centroid, m));
+    inertia = sum(inertia, sum(scaled(solid.inertia, density), of_point(m, solid.centroid)));
+  }
 };
 
 /// None for moments that no body can have, which some files contain.
@@ -78,11 +86,10 @@ struct UrdfCollisions::Measured {
 
 const TriangleMesh& UrdfCollisions::mesh(const urdf::Mesh& mesh) {
   const std::string file = find_mesh(path_, mesh.filename, options_.packages, options_.within);
-  const auto key = file + '\n' + std::to_string(mesh.scale.x) + ' ' + std::to_string(mesh.scale.y) + ' ' +
-                   std::to_string(mesh.scale.z);
+  const std::pair key(file, vector(mesh.scale));
   const auto found = meshes_.find(key);
   if (found != meshes_.end()) return found->second;
-  return meshes_.emplace(key, read_mesh_unguarded(file, vector(mesh.scale), UpAxis::left_alone)).first->second;
+  return meshes_.emplace(key, read_mesh_unguarded(file, key.second, UpAxis::left_alone)).first->second;
 }
 
 std::vector<Hull> UrdfCollisions::hulls(const urdf::Mesh& description) {
@@ -140,16 +147,22 @@ std::vector<UrdfCollisions::Measured> UrdfCollisions::measured(const Member& mem
 }
 
 LinkSolid UrdfCollisions::solid(const std::vector<Member>& members) {
+  const bool some_have_mass =
+      std::any_of(members.begin(), members.end(), [](const Member& member) { return has_mass(*member.link); });
   Weight weight;
   std::vector<Measured> pieces;
   for (const Member& member : members) {
     named(*member.link, [&] {
-      for (Measured& piece : measured(member)) pieces.push_back(std::move(piece));
-      if (has_mass(*member.link)) weight.add(*member.link->inertial, member.frame);
+      std::vector<Measured> own = measured(member);
+      if (has_mass(*member.link))
+        weight.add(*member.link->inertial, member.frame);
+      else if (some_have_mass && options_.density)
+        for (const Measured& piece : own) weight.add(piece.solid, *options_.density);
+      std::move(own.begin(), own.end(), std::back_inserter(pieces));
     });
   }
   LinkSolid solid;
-  if (weight.mass > 0) {
+  if (some_have_mass) {
     solid.mass = weight.mass;
     solid.place.origin = weight.centre();
     put_inertia(weight, solid);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <urdf_model/link.h>
@@ -62,7 +63,7 @@ class UrdfCollisions {
 
   std::string path_;
   const ImportOptions& options_;
-  std::map<std::string, TriangleMesh> meshes_;
+  std::map<std::pair<std::string, Vec3>, TriangleMesh> meshes_;  // by file and scale
 };
 
 }  // namespace boxstream::imports

@@ -52,12 +52,14 @@ std::string find_in_packages(const fs::path& from, const std::string& name, cons
   std::vector<fs::path> places(packages.begin(), packages.end());
   for (const fs::path& above : and_above(from))
     if (is_within(within, above)) places.push_back(above);
+  // What lies outside is not there, or messages would say whether it is.
+  const auto is_there = [&](const fs::path& file) { return is_within(within, file) && is_file(file); };
   for (const fs::path& place : places) {
-    if (is_file(place / whole)) return (place / whole).string();
-    if (place.filename() == package && is_file(place / rest)) return (place / rest).string();
+    if (is_there(place / whole)) return (place / whole).string();
+    if (place.filename() == package && is_there(place / rest)) return (place / rest).string();
   }
   for (const fs::path& place : places)
-    if (is_file(place / rest)) return (place / rest).string();
+    if (is_there(place / rest)) return (place / rest).string();
   std::string searched;
   for (const std::string& place : packages) searched += place + ", ";
   throw std::runtime_error(name + ": no such file; searched " + searched + from.string() +

@@ -22,6 +22,9 @@ namespace {
 constexpr std::size_t most_text_bytes = std::size_t{32} << 20;
 constexpr std::size_t most_links = 10'000;
 
+/// What scenes take, in m and in N or N m. Files have larger numbers for joints without limits.
+constexpr double farthest = 1e5, most_force = 1e9;
+
 /// urdfdom says only to a log what is wrong; its first complaint is the nearest to the cause.
 class FirstComplaint final : public console_bridge::OutputHandler {
  public:
@@ -46,12 +49,35 @@ void check_is_tree(const urdf::ModelInterface& model) {
       throw std::runtime_error("link \"" + joint->child_link_name + "\" hangs on two joints, \"" + known->second +
                                "\" and \"" + name + "\"");
   }
+  // Links in a ring hang on each other, and not on the root: they would be left out.
+  std::vector<const urdf::Link*> below{model.getRoot().get()};
+  std::set<std::string> reached;
+  while (!below.empty()) {
+    const urdf::Link& link = *below.back();
+    below.pop_back();
+    reached.insert(link.name);
+    for (const auto& child : link.child_links) below.push_back(child.get());
+  }
+  for (const auto& [name, link] : model.links_)
+    if (!reached.contains(name))
+      throw std::runtime_error("link \"" + name + "\" does not hang on the root link \"" + model.getRoot()->name +
+                               "\"");
 }
 
-urdf::ModelInterfaceSharedPtr parse(const std::string& path) {
+std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (text.size() > most_text_bytes) throw std::runtime_error("larger than 32 MiB");
+  return text;
+}
+
+/// Elements of other programs, which say how links rub and bounce.
+void note_extensions(const std::string& text, Fragment& out) {
+  for (const std::string element : {"<contact", "<gazebo"})
+    if (text.find(element) != text.npos) out.note("elements " + element + ">: left out");
+}
+
+urdf::ModelInterfaceSharedPtr parse(const std::string& text) {
   FirstComplaint complaint;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(with_capsules_as_meshes(text));
   // A link that it cannot read in full it leaves in the model all the same, empty from there on.
@@ -74,8 +100,7 @@ class Robot {
       : collisions_(path, options), options_(options), out_(out) {}
 
   void add(const urdf::ModelInterface& model) {
-    for (const auto& [name, motor] : options_.motors)
-      if (!model.joints_.contains(name)) throw std::runtime_error("no joint called \"" + name + "\" for a motor");
+    for (const auto& [name, motor] : options_.motors) check_takes_motor(model, name);
     const urdf::Link& root = *model.getRoot();
     if (options_.fixed_base || root.name == "world") {
       add_still(root, Frame{}, std::nullopt);
@@ -91,6 +116,15 @@ class Robot {
   }
 
  private:
+  static void check_takes_motor(const urdf::ModelInterface& model, const std::string& name) {
+    const auto found = model.joints_.find(name);
+    if (found == model.joints_.end()) throw std::runtime_error("no joint called " + quoted(name) + " for a motor");
+    const bool is_floating = found->second->type == urdf::Joint::FLOATING;
+    if (is_floating || is_fixed(*found->second))
+      throw std::runtime_error("joint " + quoted(name) + " is " + (is_floating ? "floating" : "fixed") +
+                               ": no motor moves it");
+  }
+
   static bool is_body(const std::vector<Member>& members) {
     return std::any_of(members.begin(), members.end(), [](const Member& member) {
       return has_mass(*member.link) || !member.link->collision_array.empty();
@@ -267,6 +301,9 @@ class Robot {
         left_out("limits beyond half a turn", joint);
         return;
       }
+    } else if (low < -farthest || high > farthest) {
+      left_out("limits beyond 100 km", joint);
+      return;
     }
     item["limits"] = {low, high};
   }
@@ -278,7 +315,7 @@ class Robot {
       constexpr double plenty = 1e5;  // N m or N
       const bool has_effort = joint.limits && joint.limits->effort > 0;
       if (!has_effort) say("held with more than enough, for it has no effort: joint ", joint.name);
-      item["motor"] = {{"speed", 0}, {"max_force", has_effort ? joint.limits->effort : plenty}};
+      item["motor"] = {{"speed", 0}, {"max_force", has_effort ? std::min(joint.limits->effort, most_force) : plenty}};
     }
   }
 
@@ -331,7 +368,9 @@ class Robot {
 }  // namespace
 
 void read_urdf(const std::string& path, const ImportOptions& options, Fragment& out) {
-  Robot(path, options, out).add(*parse(path));
+  const std::string text = text_of(path);
+  Robot(path, options, out).add(*parse(text));
+  note_extensions(text, out);
 }
 
 }  // namespace boxstream::imports

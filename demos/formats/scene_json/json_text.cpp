@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_json/json_text.hpp"
 
+#include <charconv>
 #include <memory>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -120,6 +122,23 @@ class Builder {
 
 std::string error_line(const std::string& file, const std::string& pointer, const std::string& reason) {
   return files::printable(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + reason);
+}
+
+std::string with_name(const std::string& line, const std::string& file, const nlohmann::json& document) {
+  struct List {
+    const char *key, *name, *what;
+  };
+  for (const List& list : {List{"bodies", "name", "body"}, List{"joints", "a", "joint of body"}}) {
+    const std::string start = error_line(file, std::string("/") + list.key + "/", "");
+    const std::string place = start.substr(0, start.size() - 2);  // without the end of a pointer
+    std::size_t index = 0;
+    if (!line.starts_with(place) ||
+        std::from_chars(line.data() + place.size(), line.data() + line.size(), index).ec != std::errc())
+      continue;
+    return line + files::printable(std::string(" (") + list.what + " \"" +
+                                   document.at(list.key).at(index).at(list.name).get<std::string>() + "\")");
+  }
+  return line;
 }
 
 std::string child_pointer(const std::string& pointer, const std::string& key) {

@@ -177,7 +177,7 @@ struct ReadGenerator {
     drum.spin = fields.number("spin", {-100, 100});
     drum.material = read_material(fields, names);
   }
-  void operator()(ImportGenerator& import) const { read_import(fields, names, import); }
+  void operator()(ImportGenerator& import) const { read_import(fields, scene, names, import); }
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "formats/scene_json/load_parts.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "formats/geometry/convex_hull.hpp"
@@ -56,6 +57,27 @@ std::map<std::string, Motor> read_motors(const Node& node) {
   return motors;
 }
 
+/// Whether the world has another gravity than the file, which has floats.
+bool is_other_gravity(const WorldSettings& world, const Vec3& gravity) {
+  constexpr double rounding = 1e-4;
+  return world.tumbling || std::abs(world.gravity[0] - gravity[0]) > rounding ||
+         std::abs(world.gravity[1] - gravity[1]) > rounding || std::abs(world.gravity[2] - gravity[2]) > rounding;
+}
+
+Scene load_blocks(const nlohmann::json& document, const std::string& file) try {
+  Fields blocks(Node(document, "", file));
+  Scene part;
+  Names inside;
+  load_materials(blocks.require("materials"), inside);
+  load_shapes(blocks.require("shapes"), part, inside);
+  load_bodies(blocks.require("bodies"), part, inside);
+  load_joints(blocks.require("joints"), part, inside);
+  load_exclusions(blocks.require("exclusions"), part, inside);
+  return part;
+} catch (const SceneError& error) {
+  throw SceneError(with_name(error.what(), file, document));
+}
+
 }  // namespace
 
 bool is_foreign_mesh(const Node& file) {
@@ -89,7 +111,7 @@ CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene) tr
   file.fail(error.what());
 }
 
-void read_import(Fields& fields, const Names& names, ImportGenerator& generator) {
+void read_import(Fields& fields, const Scene& scene, const Names& names, ImportGenerator& generator) {
   const Node file = fields.require("file");
   generator.file = file_beside(file);
   imports::ImportOptions options;
@@ -100,6 +122,7 @@ void read_import(Fields& fields, const Names& names, ImportGenerator& generator)
   if (const auto up = fields.find("up")) options.z_up = up->choice({"y", "z"}) == 1;
   options.fixed_base = fields.boolean("fixed_base", false);
   options.keep_still = fields.boolean("static", false);
+  options.scale = read_scale(fields);
   options.hold = fields.boolean("hold", false);
   if (const auto density = fields.find("density")) options.density = density->number(positive(1e5));
   if (const auto parts = fields.find("decompose")) options.parts = read_parts(*parts);
@@ -108,18 +131,14 @@ void read_import(Fields& fields, const Names& names, ImportGenerator& generator)
     for (const Node& folder : packages->list(0, 100)) options.packages.push_back(folder_beside(folder));
 
   const nlohmann::json document = parse_json(imports::import_file(generator.file, options), generator.file);
-  Fields blocks(Node(document, "", generator.file));
-  Scene part;
-  Names inside;
-  load_materials(blocks.require("materials"), inside);
-  load_shapes(blocks.require("shapes"), part, inside);
-  load_bodies(blocks.require("bodies"), part, inside);
-  load_joints(blocks.require("joints"), part, inside);
-  load_exclusions(blocks.require("exclusions"), part, inside);
+  Scene part = load_blocks(document, generator.file);
   generator.shapes = std::move(part.shapes);
   generator.bodies = std::move(part.bodies);
   generator.joints = std::move(part.joints);
   generator.exclusions = std::move(part.exclusions);
+  generator.notes = document["notes"].get<std::vector<std::string>>();
+  if (document.contains("gravity") && is_other_gravity(scene.world, document["gravity"].get<Vec3>()))
+    generator.notes.push_back("gravity of the file: left out");
   if (fields.find("material")) {
     const Material material = read_material(fields, names);
     for (Body& body : generator.bodies) body.traits.material = material;

@@ -119,6 +119,7 @@ HullShape import_hull(Fields& fields, const Node& file);
 /// Its convex parts become shapes of the scene, without names.
 CompoundShape import_compound(Fields& fields, const Node& file, Scene& scene);
 
-void read_import(Fields& fields, const Names& names, ImportGenerator& generator);
+/// `scene` has its world already.
+void read_import(Fields& fields, const Scene& scene, const Names& names, ImportGenerator& generator);
 
 }  // namespace boxstream::scenes

@@ -26,7 +26,7 @@ CompoundShape import_compound(Fields&, const Node& file, Scene&) {
   fail(file);
 }
 
-void read_import(Fields& fields, const Names&, ImportGenerator&) {
+void read_import(Fields& fields, const Scene&, const Names&, ImportGenerator&) {
   fail(fields.require("file"));
 }
 

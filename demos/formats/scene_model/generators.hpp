@@ -309,6 +309,7 @@ struct ImportGenerator {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<std::array<std::size_t, 2>> exclusions;
+  std::vector<std::string> notes;  // a line for each thing of the file that the scene does not have
 
   std::size_t most_bodies() const { return bodies.size(); }
   void scale(const Scaling&) {}

@@ -94,7 +94,7 @@ TEST(Accuracy, SaysWhatIsWrongWithATruth) {
   refused({"--truth", "free_fal"}, "did you mean 'free_fall'?");
   refused({"--truth", "free_fall"}, "of which --metric? It is 19.62 m");
   refused({"--truth", "/worlds/0=x"}, "no number behind the =");
-  refused({"--truth", "no.csv", "--body", "ball"}, "cannot read no.csv");
+  refused({"--truth", "no.csv", "--body", "ball"}, "no.csv: No such file or directory");
   refused({"--joint", "3", "--metric", "joint_error"}, "--joint 3: there is none; the scene has 0");
 }
 

@@ -111,8 +111,14 @@ TEST_P(Scenes, CompareGivesEqualPairsAndCompleteJson) {
   const Outcome run =
       run_tool({"simulate", GetParam(), "--steps", "4", "--compare", "dbvt", "--json", directory.file("out.json")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  // Nothing but the result in a pipe.
-  EXPECT_EQ(lasting_words(run), "");
+  // Nothing but the result in a pipe, and what the file of a robot has that scenes have no word for.
+  if (GetParam() == "arm")
+    EXPECT_TRUE(
+        lasting_words(run).ends_with("arm.urdf: limit of speed of joint \"turn\", \"shoulder\", \"elbow\", "
+                                     "\"lift\": left out\n"))
+        << run.err;
+  else
+    EXPECT_EQ(lasting_words(run), "");
   EXPECT_EQ(run.out.find('\r'), std::string::npos);
   EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
   EXPECT_NE(run.out.find("pairs equal"), std::string::npos);

@@ -88,6 +88,20 @@ TEST(Mesh, CheckCountsTrianglesWithoutArea) {
   EXPECT_EQ(count_of(run.out, "without area"), 1u);
 }
 
+/// Metres of UTM are no floats, halves are.
+TEST(Mesh, PaintedFilesHaveTheCoordinatesThatWereRead) {
+  const ScratchDirectory directory;
+  const std::string painted = directory.file("painted.ply");
+  const auto painted_as = [&](const std::string& corners, const std::string& property) {
+    const std::string file = directory.write("a.obj", corners + "f 1 2 3\n");
+    EXPECT_EQ(run_tool({"mesh", "check", file, "--picture", painted}).exit_code, 0);
+    EXPECT_EQ(imports::read_surface(painted).vertices, imports::read_surface(file).vertices);
+    EXPECT_NE(directory.read("painted.ply").find("property " + property + " x\n"), std::string::npos);
+  };
+  painted_as("v 331045.127 4687210.933 12.25\nv 331046.127 4687210.933 12.25\nv 331045.127 4687211.9 12.5\n", "double");
+  painted_as("v 331045.5 0.25 1\nv 7 8 9\nv -0.5 1.5 2\n", "float");
+}
+
 /// Numbers of the line that begins with `what`: vertices, largest, mean, rms.
 std::vector<double> numbers_of(const std::string& text, const std::string& what) {
   const std::size_t at = text.find("\n" + what);
@@ -127,13 +141,13 @@ TEST(Mesh, DistanceOfTwoSurfaces) {
   EXPECT_EQ(imports::read_surface(directory.file("b.glb")).vertices, imports::read_surface(coarse).vertices);
   const std::string ply = directory.read("a.ply");
   EXPECT_NE(ply.find("property uchar red"), std::string::npos);
-  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + a.vertices.size() * 15 + a.triangles.size() * 13);
+  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + a.vertices.size() * 27 + a.triangles.size() * 13);
   // A vertex of the coarse sphere is a vertex of the fine one, so black; the farthest of the fine one is white.
   const std::string bytes = ply.substr(ply.find("end_header\n") + 11);
   std::size_t black = 0, white = 0;
   for (std::size_t i = 0; i < a.vertices.size(); ++i) {
-    black += bytes.substr(15 * i + 12, 3) == std::string(3, '\0');
-    white += bytes.substr(15 * i + 12, 3) == std::string(3, '\xff');
+    black += bytes.substr(27 * i + 24, 3) == std::string(3, '\0');
+    white += bytes.substr(27 * i + 24, 3) == std::string(3, '\xff');
   }
   EXPECT_GE(black, 2u);
   EXPECT_GE(white, 1u);

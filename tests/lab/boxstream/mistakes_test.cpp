@@ -167,6 +167,8 @@ TEST(Mistakes, InputsWithoutEndComeToOne) {
   expect_refusal(run_tool({"pairs", "/dev/zero"}, options), {"/dev/zero:1: more than 65536 characters"});
   expect_refusal(run_tool({"replay", "/dev/zero"}, options), {"/dev/zero: larger than 1024 MiB"});
   expect_refusal(run_tool({"aabbs", "/dev/zero"}, options), {"/dev/zero: "});
+  expect_refusal(run_tool({"accuracy", "hard/free_fall", "--truth", "/dev/zero", "--body", "ball"}, options),
+                 {"/dev/zero: ", "larger than 256 MiB"});
   expect_refusal(run_tool({"import", "/dev/zero", "-o", "-"}, options), {"/dev/zero: "});
   expect_refusal(run_tool({"mesh", "check", "/dev/zero"}, options), {"/dev/zero: "});
   const ScratchDirectory here;

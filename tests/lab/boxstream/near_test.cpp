@@ -64,6 +64,24 @@ TEST(Near, NamesOfColumnsSayWhetherTheyAreRadii) {
   EXPECT_EQ(run("x,y,z\n0,0,0\n1.5,0,0\n").out, "objects 2, pairs 0\n");
 }
 
+/// Tables often have an index in front, with a name or without one.
+TEST(Near, AnIndexIsNoCoordinate) {
+  const auto run = [](const std::string& rows) { return run_tool({"near", "-", "--radius", "7"}, {rows, false}); };
+  for (const char* const header : {",x,y,z\n", "x y z\n", "\"x\"\t\"y\"\t\"z\"\n"})
+    expect_refusal(run(header + std::string("5,0.25,8,9\n")),
+                   {"standard input:2: the first line names 3 columns, the row has 4 numbers"});
+  expect_refusal(run("x\ty\n2,5\t3,25\n"), {"standard input:2: the first line names 2 columns, the row has 4 numbers"});
+  expect_refusal(run("% x y\n7 8 9\n"), {"the first line names 2 columns, the row has 3 numbers"});
+  EXPECT_EQ(run("% x y z\n1 2 3\n").out, "objects 1, pairs 0\n");
+  EXPECT_EQ(run("//x y z\n1 2 3\n").out, "objects 1, pairs 0\n");
+  EXPECT_EQ(run("x in m,y in m,z in m\n1,2,3\n").out, "objects 1, pairs 0\n");
+  for (const char* const name : {"id", "Index", "frame", "t", "TIME", "\"\""}) {
+    SCOPED_TRACE(name);
+    expect_refusal(run(name + std::string(",x,y\n1,2,3\n")), {"standard input:2: column 1 would be x, and is called"});
+    expect_refusal(run("x,y," + std::string(name) + "\n1,2,3\n"), {"column 3 would be z, and is called"});
+  }
+}
+
 TEST(Near, WritesTables) {
   const ScratchDirectory directory;
   const Outcome run = run_tool({"near", "-", "--radius", "4", "--csv", directory.file("pairs.csv"), "--save",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "process.hpp"
+#include "refusal.hpp"
 #include "scratch_directory.hpp"
 
 namespace boxstream::tool_test {
@@ -49,8 +50,38 @@ TEST(Pairs, DoublesAreNotRounded) {
   EXPECT_EQ(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n1.000000000000000 0 0 2 1 1\n", false}).out, "boxes 2, pairs 1\n");
 }
 
+TEST(Pairs, NumbersMayHaveAPlus) {
+  EXPECT_EQ(run_tool({"pairs", "-"}, {"+0 0 0 +1.5 1 1\n+1.5e+0 0 0 2 1 1\n", false}).out, "boxes 2, pairs 1\n");
+  for (const char* const word : {"+-1", "++1", "+"})
+    expect_refusal(run_tool({"pairs", "-"}, {"0 0 0 1 1 1\n" + std::string(word) + " 0 0 1 1 1\n", false}),
+                   {"standard input:2: \"" + std::string(word) + "\" is not a number"});
+}
+
 TEST(Pairs, NoBoxesAreNoPairs) {
   EXPECT_EQ(run_tool({"pairs", "-"}).out, "boxes 0, pairs 0\n");
+}
+
+/// (2, 4, 6) to (3, 5, 7), axis by axis, would pass for (2, 3, 4) to (5, 6, 7).
+TEST(Pairs, ColumnsInAnotherOrderAreRefused) {
+  const auto run = [](const std::string& rows) { return run_tool({"pairs", "-"}, {rows, false}); };
+  const std::string row = "2,3,4,5,6,7\n";
+  expect_refusal(run("xmin,xmax,ymin,ymax,zmin,zmax\n" + row),
+                 {"standard input:2: the columns are called xmin, xmax, ymin, ymax, zmin, zmax: three minima come "
+                  "first, then three maxima"});
+  expect_refusal(run("x_hi,y_hi,z_hi,x_lo,y_lo,z_lo\n" + row), {"three minima come first"});
+  for (const char* const header : {"MinX,MinY,MinZ,MaxX,MaxY,MaxZ\n", "lx,ly,lz,hx,hy,hz\n",
+                                   "low x,low y,low z,high "
+                                   "x,high y,high z\n",
+                                   "boxes\n"})
+    EXPECT_EQ(run(header + row).out, "boxes 1, pairs 0\n") << header;
+}
+
+TEST(Pairs, AnEmptyFieldIsNoNumber) {
+  for (const char* const row : {"0,0,0,,1,1,1", "0,0,0, ,1,1,1", "0,0,0,,1,1"}) {
+    SCOPED_TRACE(row);
+    expect_refusal(run_tool({"pairs", "-"}, {row, false}), {"standard input:1: an empty field between two commas"});
+  }
+  EXPECT_EQ(run_tool({"pairs", "-"}, {"0,0,0,1,1,1,\n,,,,,\n", false}).out, "boxes 1, pairs 0\n");
 }
 
 TEST(Pairs, BadRowsAreNamedByLine) {

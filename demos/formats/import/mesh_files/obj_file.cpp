@@ -8,12 +8,17 @@
 namespace boxstream::imports {
 namespace {
 
+/// A comment ends with its line.
+bool is_continued(std::string_view line) {
+  return line.ends_with('\\') && line.find('#') == line.npos;
+}
+
 /// A line that a "\" at its end continues is one with the next.
 std::string_view whole_line(TextScan& scan, std::string& joined) {
   std::string_view line = scan.line();
-  if (line.empty() || line.back() != '\\') return line;
+  if (!is_continued(line)) return line;
   joined.clear();
-  while (!line.empty() && line.back() == '\\') {
+  while (is_continued(line)) {
     joined.append(line.substr(0, line.size() - 1)).push_back(' ');
     if (scan.at_end()) return joined;
     line = scan.line();

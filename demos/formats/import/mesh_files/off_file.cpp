@@ -26,7 +26,8 @@ std::size_t count_in(TextScan& words, const char* what) {
 RawMesh read_lines(TextScan& scan) {
   std::string_view line = next_line(scan);
   TextScan words(line);
-  const std::string_view kind = words.word();
+  std::string_view kind = words.word();
+  if (kind.starts_with("OFF")) kind = kind.substr(0, 3);  // files of ModelNet have the first number right behind it
   if (kind.ends_with("OFF") || kind == "off") {
     if (kind.find_first_of("4n") != kind.npos)
       throw std::runtime_error("surfaces of other than three dimensions are not read");

@@ -57,6 +57,18 @@ bool is_convex(const std::vector<Point>& points) {
   return true;
 }
 
+/// Whether a fan from the first corner has the polygon's own area, up to what rounding of corners on a line may do.
+bool is_like_fan(const std::vector<Point>& points) {
+  constexpr double rounding = 1e-4;  // of the area
+  double area = 0, too_much = 0;
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const double part = turn(points[0], points[i - 1], points[i]);
+    area += part;
+    if (part < 0) too_much -= part;
+  }
+  return too_much <= rounding * area;
+}
+
 /// Whether the corner `ear` of the rest of a polygon can be cut off: it turns to the left, and no other corner is
 /// inside.
 bool is_ear(const std::vector<Point>& points, const std::vector<std::size_t>& rest, std::size_t ear) {
@@ -83,12 +95,12 @@ void Polygons::add(const std::vector<std::uint32_t>& corners) {
 }
 
 void Polygons::finish() {
-  for (const std::uint32_t corner : corners_)
-    if (corner >= mesh_.vertices.size())
-      throw std::runtime_error("a face with a vertex that is not there: there are " +
-                               std::to_string(mesh_.vertices.size()));
   std::size_t begin = 0;
   for (std::size_t face = 0; face < ends_.size(); ++face) {
+    for (std::size_t i = begin; i < ends_[face]; ++i)
+      if (corners_[i] >= mesh_.vertices.size())
+        throw std::runtime_error("face " + std::to_string(face) + " has vertex " + std::to_string(corners_[i]) +
+                                 ", both from 0 on: there are " + std::to_string(mesh_.vertices.size()));
     cut(static_cast<std::uint32_t>(face), corners_.data() + begin, ends_[face] - begin);
     begin = ends_[face];
   }
@@ -98,9 +110,14 @@ void Polygons::cut(std::uint32_t face, const std::uint32_t* corners, std::size_t
   const auto fan = [&] {
     for (std::size_t i = 2; i < count; ++i) triangle(face, corners[0], corners[i - 1], corners[i]);
   };
-  if (count <= 3 || count > most_by_ears) return fan();
+  if (count <= 3) return fan();
   const std::vector<Point> points = flattened(mesh_, corners, count);
   if (is_convex(points)) return fan();
+  if (count > most_by_ears) {
+    if (is_like_fan(points)) return fan();
+    throw std::runtime_error("face " + std::to_string(face) + ", from 0 on: a face of " + std::to_string(count) +
+                             " corners that is not convex");
+  }
   std::vector<std::size_t> rest(count);
   for (std::size_t i = 0; i < count; ++i) rest[i] = i;
   while (rest.size() > 3) {

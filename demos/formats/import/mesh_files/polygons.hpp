@@ -17,7 +17,8 @@ class Polygons {
   void add(const std::vector<std::uint32_t>& corners);
 
   /// After the last vertex: cuts faces into triangles, convex ones as a fan, others ear by ear, as they look along the
-  /// axis on which their normal is largest. Throws std::runtime_error for a corner that is no vertex.
+  /// axis on which their normal is largest. Throws std::runtime_error for a corner that is no vertex, and for a face of
+  /// more than 2000 corners that a fan would give another area.
   void finish();
 
   std::size_t size() const { return ends_.size(); }

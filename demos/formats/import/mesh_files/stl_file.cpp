@@ -60,10 +60,14 @@ RawMesh read_text(std::string_view text) {
   TextScan scan(text);
   try {
     std::size_t corners = 0;
+    bool in_solid = false;
     while (!scan.at_end()) {
       TextScan words(scan.line());
       for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-        if (is_keyword(word, "solid") || is_keyword(word, "endsolid")) break;  // what follows is a name
+        if (is_keyword(word, "solid") || is_keyword(word, "endsolid")) {
+          in_solid = is_keyword(word, "solid");
+          break;  // what follows is a name
+        }
         if (is_keyword(word, "vertex")) {
           mesh.vertices.push_back(coordinates_in(words));
           ++corners;
@@ -75,18 +79,20 @@ RawMesh read_text(std::string_view text) {
       }
     }
     if (corners != 0) throw std::runtime_error("cut off");
+    if (in_solid) throw std::runtime_error("cut off: no endsolid");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error("line " + std::to_string(scan.lines()) + ": " + error.what());
   }
   return mesh;
 }
 
-/// Files of bytes may begin with "solid", too: their size tells.
+/// Files of bytes may begin with "solid", too: their size tells, or a zero, which no text has.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return true;
+  if (bytes.substr(0, header).find('\0') != bytes.npos) return true;
   if (is_keyword(TextScan(TextScan::without_mark(bytes)).word(), "solid")) return false;
   // Bytes of a count and of floats are hardly ever all letters.
-  return !std::all_of(bytes.begin(), bytes.end(), [](char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
+  return !std::all_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
 }
 
 }  // namespace

@@ -122,6 +122,20 @@ TEST(BulletFile, SaysItsGravityAndSharesShapes) {
   EXPECT_EQ(all["bodies"].size(), 2u);
 }
 
+/// The scene decides: its world may have other things in it.
+TEST(BulletFile, GravityThatAGeneratorLeavesOutIsNoted) {
+  Original original;
+  original.body(1, original.shape<btBoxShape>(btVector3(1, 1, 1)), btVector3(0, 0, 0));
+  const auto notes = [&] {
+    const ScratchDirectory scratch;
+    scratch.write("world.bullet", original.bytes());
+    return std::get<scenes::ImportGenerator>(scene_of(scratch).generators[0]).notes;
+  };
+  EXPECT_EQ(notes(), std::vector<std::string>{});
+  original.world().setGravity(btVector3(0, -5, 1.5));
+  EXPECT_EQ(notes(), std::vector<std::string>{"gravity of the file: left out"});
+}
+
 /// Lets the original and its copy run, and gives the largest distance between bodies that should be together.
 double largest_difference(Original& original, int steps) {
   const ScratchDirectory scratch;

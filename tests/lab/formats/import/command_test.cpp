@@ -88,7 +88,7 @@ TEST(ImportCommand, RefusesWhatItCannotRead) {
          "<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"1e12\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" "
          "iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial><collision><geometry><sphere radius=\"1\"/></geometry></collision>"
          "</link></robot>",
-         "/bodies/0/mass: must be at most 1000000000, got 1000000000000");
+         "/bodies/0/mass: must be at most 1000000000, got 1000000000000 (body \"a\")");
 }
 
 }  // namespace

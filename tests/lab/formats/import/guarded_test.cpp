@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "formats/scene_model/scene_error.hpp"
+#include "scratch_directory.hpp"
 
 namespace boxstream::import_test {
 namespace {
@@ -30,6 +31,16 @@ TEST(Guarded, GivesWhatTheWorkReturns) {
   std::string large(3'000'000, 'x');
   large[7] = '\0';
   EXPECT_EQ(guarded("file", [&] { return large; }, {}), large);
+}
+
+TEST(Guarded, FilesThatNameOthersHaveRoomForThem) {
+  const tool_test::ScratchDirectory scratch;
+  const auto megabytes_for = [&](const std::string& name) {
+    return imports::allowance_for(scratch.write(name, std::string(1000, ' '))).memory >> 20;
+  };
+  EXPECT_EQ(megabytes_for("small.glb"), 256u);
+  EXPECT_EQ(megabytes_for("small.urdf"), 4096u);
+  EXPECT_EQ(megabytes_for("small.gltf"), 4096u);
 }
 
 TEST(Guarded, PassesOnWhatTheWorkThrows) {

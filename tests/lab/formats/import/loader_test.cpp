@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "formats/import/geometry.hpp"
 #include "formats/scene_json/load_scene.hpp"
 #include "formats/scene_model/expand.hpp"
@@ -108,6 +110,23 @@ TEST_F(ImportingScene, HasABodyFromAMesh) {
   EXPECT_NEAR(expanded.bodies[0].position[2], 0.5, 1e-9);
 }
 
+/// An L of three cubes; a scale of 20 makes them 40 m wide, one of 30 makes them 60 m wide.
+TEST_F(ImportingScene, HasABodyFromAMeshInAnotherUnit) {
+  const auto import_with = [](const std::string& scale) {
+    return R"("generators": [{"type": "import", "file": "ell.obj", "density": 7, "scale": )" + scale + "}]";
+  };
+  const auto notes_of = [](const Scene& scene) { return std::get<scenes::ImportGenerator>(scene.generators[0]).notes; };
+  const Scene scene = load(import_with("20"));
+  EXPECT_NEAR(*expand(scene).bodies[0].traits.mass, 7 * 3 * 20 * 20 * 20, 1e-6);
+  const std::string large = "the mesh is 60 m wide: a scale of 0.001 is for millimetres";
+  const auto notes = notes_of(scene), notes_of_large = notes_of(load(import_with("[1, 30, 1]")));
+  EXPECT_EQ(std::count(notes.begin(), notes.end(), large), 0);
+  EXPECT_EQ(std::count(notes_of_large.begin(), notes_of_large.end(), large), 1);
+  scratch.write("r.urdf", "<robot name='r'/>");
+  EXPECT_EQ(complaint(R"("generators": [{"type": "import", "file": "r.urdf", "scale": 2}])"),
+            "r.urdf: only meshes have a scale: the file is in metres");
+}
+
 TEST_F(ImportingScene, CountsIndicesFromWhereItsThingsAre) {
   const Scene scene = load(R"("shapes": [{"name": "ball", "type": "sphere", "radius": 1}],
     "materials": {"ice": {"friction": 0}}, "bodies": [{"shape": "ball", "mass": 1}],
@@ -122,6 +141,28 @@ TEST_F(ImportingScene, CountsIndicesFromWhereItsThingsAre) {
   EXPECT_TRUE(std::holds_alternative<scenes::MeshShape>(expanded.shapes[expanded.bodies[2].traits.shape].value));
   EXPECT_EQ(expanded.bodies[2].traits.type, scenes::BodyType::fixed);
   EXPECT_EQ(pointer_of_body(expanded, 2), "/generators/1");
+}
+
+#endif
+
+#ifdef BOXSTREAM_HAS_URDFDOM
+
+TEST_F(ImportingScene, NamesTheBodyOrTheJointThatIsWrong) {
+  const auto robot = [&](const std::string& mass, const std::string& place) {
+    const std::string inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+    scratch.write("r.urdf", "<robot name='r'><link name='base'/><link name='fore/arm'><inertial><origin xyz='0 0 -" +
+                                place + "'/><mass value='" + mass + "'/>" + inertia +
+                                "<joint name='j' type='continuous'><parent link='base'/><child link='fore/arm'/>"
+                                "<origin xyz='0 0 " +
+                                place + "'/><axis xyz='0 1 0'/></joint></robot>");
+    return complaint(R"("generators": [{"type": "import", "file": "r.urdf"}])");
+  };
+  EXPECT_EQ(robot("4e10", "0"),
+            "r.urdf: /bodies/0/mass: must be at most 1000000000, got 40000000000 (body \"fore/arm\")");
+  // A body at the origin, on a joint that is far off.
+  const std::string far = robot("4", "3e5");
+  EXPECT_TRUE(far.starts_with("r.urdf: /joints/0/pivot/1: must be at most 100000, got ")) << far;
+  EXPECT_TRUE(far.ends_with(" (joint of body \"fore/arm\")")) << far;
 }
 
 #endif

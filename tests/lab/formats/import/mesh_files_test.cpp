@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <numbers>
 #include <string>
 
 #include "formats/import/mesh.hpp"
@@ -85,6 +86,9 @@ TEST(MeshFiles, TakeTextAsProgramsWriteIt) {
 
 TEST(MeshFiles, HaveCommentsAndNamesOfAnyWords) {
   EXPECT_EQ(read_obj("v 0 0 0# one\nv 1 0 0 #two\nv 0 1 0\nf 1 2 3# f 1 1 1\n").triangles[0], (Triangle{0, 1, 2}));
+  // A comment may end with the sign that continues a line, as names of folders do.
+  EXPECT_EQ(read_obj("# from C:\\meshes\\\nv 7 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 3 # all \\\nf 3 2 1\n").triangles,
+            (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
   for (const char* const name : {"facet vertex", " vertex 1 2", "outer loop endloop solid"}) {
     std::string text = as_ascii_stl(tetrahedron());
     text.insert(text.find('\n'), std::string(" ") + name);
@@ -93,6 +97,7 @@ TEST(MeshFiles, HaveCommentsAndNamesOfAnyWords) {
   }
   const char* const lines = "\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const char* const head : {"OFF", "off", "COFF"}) EXPECT_EQ(read_off(head + std::string(lines)).faces.size(), 1u);
+  EXPECT_EQ(read_off("OFF3 1 0" + std::string(lines).substr(6)).faces.size(), 1u);
   const char* const ply =
       "\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\nend_header\n7 8 9\n";
   for (const char* const head : {"ply", "PLY"})
@@ -131,6 +136,26 @@ TEST(MeshFiles, CutPolygonsThatAreNotConvexIntoTheirOwnArea) {
     }
 }
 
+/// Corners on a circle, of which every second one may be pulled in; the circle is a third of a metre up.
+std::string round_face(int corners, double inner) {
+  std::string text, face = "f";
+  char line[100];
+  for (int i = 0; i < corners; ++i) {
+    const double r = i % 2 == 0 ? 1 : inner, angle = 2 * std::numbers::pi * i / corners;
+    std::snprintf(line, sizeof line, "v %.17g %.17g 0.33\n", r * std::cos(angle), r * std::sin(angle));
+    text += line;
+    face += ' ' + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+TEST(MeshFiles, OfVeryManyCornersAreConvexOrRefused) {
+  const RawMesh disc = read_obj(round_face(2600, 1));
+  EXPECT_EQ(disc.triangles.size(), 2598u);
+  EXPECT_NEAR(area_along_z(disc), 1300 * std::sin(2 * std::numbers::pi / 2600), 1e-12);
+  EXPECT_EQ(complaint(read_obj, round_face(2600, 0.4)), "face 0, from 0 on: a face of 2600 corners that is not convex");
+}
+
 TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
   std::string solid = as_binary_stl(tetrahedron());
   solid.replace(0, 5, "solid");
@@ -140,8 +165,23 @@ TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
   for (char& c : loud) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   EXPECT_EQ(read_stl(loud).triangles.size(), 4u);
   EXPECT_EQ(complaint(read_stl, "text = " + loud), "a text that does not begin with \"solid\"");
+  EXPECT_EQ(complaint(read_stl, "K\xF6rper\n" + loud), "a text that does not begin with \"solid\"");
+  EXPECT_EQ(read_stl(solid + "by a program").triangles.size(), 4u);
   for (const std::string& whole : {solid, as_binary_stl(tetrahedron())})
     EXPECT_EQ(complaint(read_stl, whole.substr(0, 200)), "cut off: 4 triangles take 284 bytes");
+}
+
+TEST(MeshFiles, OfStlEndWithTheirLastSolid) {
+  const std::string solid = as_ascii_stl(tetrahedron());  // two lines, and seven for each facet
+  const auto first_lines = [&](int lines) {
+    std::size_t end = 0;
+    for (int i = 0; i < lines; ++i) end = solid.find('\n', end) + 1;
+    return solid.substr(0, end);
+  };
+  EXPECT_EQ(complaint(read_stl, first_lines(15)), "line 15: cut off: no endsolid");
+  EXPECT_EQ(complaint(read_stl, solid + first_lines(29)), "line 59: cut off: no endsolid");
+  EXPECT_EQ(complaint(read_stl, first_lines(12)), "line 12: cut off");
+  EXPECT_EQ(read_stl(solid + solid).triangles.size(), 8u);
 }
 
 TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {
@@ -185,7 +225,7 @@ TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {
 TEST(MeshFiles, ThatAreBrokenSayWhereAndWhy) {
   EXPECT_EQ(complaint(read_obj, "v 0 0\n"), "line 1: cut off, or a vertex with fewer than three coordinates");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nv 0 zero 0\n"), "line 2: no number where a coordinate should be: 'zero'");
-  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 2 3\n"), "a face with a vertex that is not there: there are 1");
+  EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 1 1\nf 1 2 3\n"), "face 1 has vertex 1, both from 0 on: there are 1");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf 1 0 1\n"), "line 2: a face with a vertex that is not there: '0'");
   EXPECT_EQ(complaint(read_obj, "v 0 0 0\nf -1 -2 1\n"), "line 2: a face with a vertex that is not there: '-2'");
   EXPECT_EQ(complaint(read_off, "OFF\n2 1 0\n0 0 0\n"), "line 3: cut off, or more than one vertex or face in a line");
@@ -248,6 +288,20 @@ TEST(MeshFiles, OfColladaSayThatNumbersAreRounded) {
             "2 of 6 coordinates are no floats and become floats, by up to 1: .obj, .ply, .stl and .off are read as "
             "doubles");
   EXPECT_EQ(imports::rounding_in_collada("<source id='p'><float_array>0.1"), "");
+}
+
+/// As many as there are parts in a model of a building; attributes may have lines to themselves.
+TEST(MeshFiles, OfColladaMayHaveManySources) {
+  constexpr int count = 20'000;
+  std::string sources, inputs;
+  for (int i = 0; i < count; ++i) {
+    const std::string id = "s" + std::to_string(i);
+    sources += "<source\n\tid='" + id + "'><float_array>0.3 0.25 0.7</float_array></source>";
+    inputs += "<input\tsemantic='POSITION'\n source='#" + id + "'/>";
+  }
+  const std::string rounded = imports::rounding_in_collada(sources + inputs + inputs);
+  EXPECT_EQ(rounded.substr(0, rounded.find(" coord")), "40000 of 60000");
+  EXPECT_EQ(imports::rounding_in_collada(sources), "");
 }
 
 TEST(MeshFiles, AreSurfacesWithTheFilesFaces) {

@@ -103,7 +103,7 @@ TEST(Mesh, OfTriangleStripsHasThemAll) {
   EXPECT_EQ(complaint(cut), cut + ": 'tristrips' 0 of 1: cut off");
   text.replace(text.find("-1 1 5"), 2, "99");
   const std::string wrong = scratch.write("wrong.ply", text);
-  EXPECT_EQ(complaint(wrong), wrong + ": a face with a vertex that is not there: there are 8");
+  EXPECT_EQ(complaint(wrong), wrong + ": face 6 has vertex 99, both from 0 on: there are 8");
 }
 
 TEST(Mesh, WithVerticesLeftOverIsRefusedOrSaysSo) {
@@ -131,6 +131,22 @@ TEST(Mesh, ScaledAndMirroredStaysInsideOut) {
   EXPECT_NEAR(measure(mirrored.vertices, mirrored.triangles).centroid[2], -0.75, 1e-12);
 }
 
+/// Facets of STL have their corners to themselves.
+TEST(Mesh, HasAMillionTrianglesWhateverTheirFileRepeats) {
+  const ScratchDirectory scratch;
+  const TriangleMesh once = tetrahedron();
+  TriangleMesh solid = once;
+  while (solid.triangles.size() < 350'000)
+    solid.triangles.insert(solid.triangles.end(), once.triangles.begin(), once.triangles.end());
+  const TriangleMesh mesh = read_mesh(scratch.write("t.stl", as_binary_stl(solid)));
+  EXPECT_EQ(mesh.triangles.size(), 350'000u);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 1'000'001; ++i) text += "f 1 2 3\n";
+  const std::string many = scratch.write("many.obj", text);
+  EXPECT_EQ(complaint(many), many + ": more than a million vertices or triangles");
+}
+
 TEST(Mesh, HasNoTrianglesWithoutArea) {
   const ScratchDirectory scratch;
   const TriangleMesh mesh = read_mesh(scratch.write("t.obj", as_obj(tetrahedron()) + "f 1 2 2\nv 2 0 0\nf 1 2 5\n"));
@@ -150,8 +166,9 @@ TEST(BrokenMesh, IsRefusedWithOneLine) {
   refuse("empty.obj", "", "");
   refuse("points.obj", "v 0 0 0\nv 1 0 0\n", "");
   refuse("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangles in it");
-  refuse("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "");
-  refuse("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "beyond 100 km");
+  refuse("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n",
+         "vertex 1, from 0 on: a coordinate that is not a finite number");
+  refuse("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 1, from 0 on: a coordinate beyond 100 km");
   refuse("missing.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "");
   refuse("text.gltf", "hello", "");
   refuse("text.stl", "hello", "");

@@ -31,6 +31,16 @@ TEST(BrokenUrdf, ALinkOfTwoJointsIsRefused) {
               "link \"bar\" hangs on two joints, \"hinge\" and \"second\"");
 }
 
+TEST(BrokenUrdf, LinksInARingAreRefused) {
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return "<link name=\"" + child + "\"/><joint name=\"" + name + "\" type=\"fixed\"><parent link=\"" + parent +
+           "\"/><child link=\"" + child + "\"/></joint>";
+  };
+  EXPECT_EQ(complaint(without(post_and_bar, "</robot>",
+                              joint("to", "tail", "head") + joint("fro", "head", "tail") + "</robot>")),
+            "link \"head\" does not hang on the root link \"post\"");
+}
+
 TEST(BrokenUrdf, NestedWithoutEndIsRefused) {
   std::string deep = "<robot name=\"r\">";
   for (int i = 0; i < 5'000; ++i) deep += "<a>";

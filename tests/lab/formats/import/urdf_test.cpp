@@ -67,6 +67,10 @@ TEST(Urdf, MotorsHoldOrDrive) {
   EXPECT_EQ(import(post_and_bar, options)["bodies"][1]["sleep"], false);
   options.motors["knee"] = {1, 1};
   EXPECT_EQ(complaint(post_and_bar, options), "no joint called \"knee\" for a motor");
+  options.motors.erase("knee");
+  for (const std::string type : {"fixed", "floating"})
+    EXPECT_EQ(complaint(without(post_and_bar, "revolute", type), options),
+              "joint \"hinge\" is " + type + ": no motor moves it");
 }
 
 TEST(Urdf, JointsOfEveryKind) {
@@ -84,6 +88,25 @@ TEST(Urdf, JointsOfEveryKind) {
             "joint \"hinge\": planar joints are not supported");
 }
 
+/// As generators of robots write them for "unlimited".
+TEST(Urdf, NumbersWithoutMeaningAreNoLimits) {
+  const auto slider = [](const std::string& limits) {
+    return without(without(post_and_bar, "\"revolute\"", "\"prismatic\""), R"(lower="-0.5" upper="1" effort="30")",
+                   limits);
+  };
+  for (const char* const limits :
+       {R"(lower="-1e7" upper="1e7" effort="30")", R"(lower="-0.25" upper="1e16" effort="30")"}) {
+    const json all = import(slider(limits));
+    EXPECT_FALSE(all["joints"][0].contains("limits"));
+    EXPECT_EQ(all["notes"], json::parse(R"(["limits beyond 100 km of joint \"hinge\": left out"])"));
+  }
+  EXPECT_EQ(import(slider(R"(lower="-1e5" upper="1e5" effort="30")"))["joints"][0]["limits"],
+            json::parse("[-1e5, 1e5]"));
+  ImportOptions options;
+  options.hold = true;
+  EXPECT_EQ(import(slider(R"(lower="0" upper="2" effort="4e12")"), options)["joints"][0]["motor"]["max_force"], 1e9);
+}
+
 TEST(Urdf, AMassThatIsMissingComesFromADensityOrIsAnError) {
   const std::string text = without(post_and_bar, R"(<inertial><origin xyz="0.5 0 0"/><mass value="2"/>
       <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>)");
@@ -93,6 +116,25 @@ TEST(Urdf, AMassThatIsMissingComesFromADensityOrIsAnError) {
   const json all = import(text, options);
   EXPECT_NEAR(all["bodies"][1]["mass"].get<double>(), 500 * 1 * 0.1 * 0.1, 1e-9);
   expect_near(all["bodies"][1]["position"], {0.5, 2.1, 0});
+}
+
+/// A ball of 0.3 m at (0, 0, 0.5) that is fixed to the bar.
+TEST(Urdf, ADensityWeighsLinksThatAreFixedToOnesWithAMass) {
+  const std::string text = without(post_and_bar, "</robot>", R"(<link name="knob"><collision><geometry>
+      <sphere radius="0.3"/></geometry></collision></link><joint name="weld" type="fixed"><parent link="bar"/>
+      <child link="knob"/><origin xyz="0 0 0.5"/></joint></robot>)");
+  ImportOptions options;
+  options.z_up = false;
+  EXPECT_EQ(import(text, options)["bodies"][1]["mass"], 2);
+  options.density = 25;
+  const double ball = 25 * 4 * std::numbers::pi / 3 * 0.3 * 0.3 * 0.3, mass = 2 + ball;
+  const json bar = import(text, options)["bodies"][1];
+  EXPECT_NEAR(bar["mass"].get<double>(), mass, 1e-12);
+  // Of 2 kg at (0.5, 0, 2.1) and the ball at (0, 0, 2.6).
+  expect_near(bar["position"], {2 * 0.5 / mass, 0, (2 * 2.1 + ball * 2.6) / mass});
+  // Trace of the tensors of both, and of two masses 0.5 sqrt(2) apart.
+  const auto moments = bar["inertia"].get<Vec3>();
+  EXPECT_NEAR(moments[0] + moments[1] + moments[2], 3 + 3 * 0.4 * ball * 0.09 + 2 * (2 * ball / mass) * 0.5, 1e-9);
 }
 
 TEST(Urdf, MeshesBecomeHullsOrPartsAroundTheCentreOfMass) {
@@ -123,6 +165,27 @@ TEST(Urdf, MeshesBecomeHullsOrPartsAroundTheCentreOfMass) {
   EXPECT_EQ(parts["shapes"][3]["children"].size(), 2u);
 }
 
+/// Robots drawn in micrometres have scales that are equal to six decimals.
+TEST(Urdf, AMeshOfTwoScalesIsTwoMeshes) {
+  const ScratchDirectory scratch;
+  scratch.write("corner.obj", "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nv 0 0 1e6\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto mesh = [](const std::string& scale) {
+    return "<mesh filename=\"corner.obj\" scale=\"" + scale + " " + scale + " " + scale + "\"/>";
+  };
+  const std::string text = without(post_and_bar, R"(<box size="1 0.1 0.1"/>)",
+                                   mesh("3e-7") + "</geometry></collision><collision><geometry>" + mesh("4e-7"));
+  const json shapes = json::parse(imports::import_file(scratch.write("r.urdf", text), {}))["shapes"];
+  for (const auto& [shape, side] : {std::pair(1u, 0.3), std::pair(2u, 0.4)}) {
+    ASSERT_EQ(shapes[shape]["points"].size(), 4u);
+    double low = 10, high = -10;
+    for (const json& p : shapes[shape]["points"]) {
+      low = std::min(low, p[0].get<double>());
+      high = std::max(high, p[0].get<double>());
+    }
+    EXPECT_NEAR(high - low, side, 1e-9);
+  }
+}
+
 TEST(Urdf, PackagesAreDirectoriesAbove) {
   const ScratchDirectory scratch;
   std::filesystem::create_directories(scratch.file("pkg/urdf"));
@@ -138,6 +201,15 @@ TEST(Urdf, WhatScenesHaveNoWordForIsNamed) {
                                   "effort=\"30\" velocity=\"3\"/><dynamics damping=\"0.2\"/>"));
   EXPECT_EQ(all["notes"], json::parse(R"(["damping of joint \"hinge\": left out",
       "limit of speed of joint \"hinge\": left out"])"));
+}
+
+TEST(Urdf, ElementsOfOtherProgramsAreNamed) {
+  const json all =
+      import(without(post_and_bar, "</robot>", R"(<gazebo reference="bar"><mu1>0.7</mu1></gazebo></robot>)"));
+  EXPECT_EQ(all["notes"], json::parse(R"(["elements <gazebo>: left out"])"));
+  const json contact = import(without(post_and_bar, "<link name=\"bar\">",
+                                      R"(<link name="bar"><contact><lateral_friction value="0.2"/></contact>)"));
+  EXPECT_EQ(contact["notes"], json::parse(R"(["elements <contact>: left out"])"));
 }
 
 /// The tensor that a body of the scene has, about its centre and along the axes of the file.
