@@ -48,7 +48,8 @@ struct OutOfCoreOptions {
   std::uint64_t memory = std::uint64_t{1} << 30;
   /// Where the temporary file is; empty: the folder that TMPDIR, TMP, TEMP or TEMPDIR names, or /tmp.
   std::string directory = {};
-  /// As in DetectorOptions. Not used below 64 MiB of memory: threads hold back pairs.
+  /// As in DetectorOptions. Not used below 64 MiB of memory: threads hold back pairs. From there on 18 MiB are for
+  /// these, with an executor or without.
   Executor* executor = nullptr;
   /// As in PairRules.
   bool touching = true;

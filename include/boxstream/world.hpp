@@ -270,7 +270,7 @@ class BOXSTREAM_API BasicWorld {
   /// the largest finite number are that number. They depend only on the two boxes.
   ///
   /// @par Memory
-  /// Nothing is allocated but by the first query after a change, and by `query_nearest` of more than 32.
+  /// None but to bring the index up to date, and for over 32 of `query_nearest` or 16 planes of `query_planes`.
   void query_nearest_box(const Box& box, S limit, NearVisitor<S> visit) const;
 
   /// The same for all pairs that group and mask accept, each once; `a` was created before `b`.

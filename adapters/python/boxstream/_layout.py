@@ -13,7 +13,7 @@ class InvalidBoxesWarning(UserWarning):
 def likely_layout(boxes):
     """A sentence about an array of boxes, (n, 2 d) or (n, 2, d); '' if it looks like none that is known."""
     dimensions = boxes.shape[-1] if boxes.ndim == 3 else boxes.shape[1] // 2
-    flat = boxes.reshape(len(boxes), 2 * dimensions).astype(float)  # squares of large float32 overflow
+    flat = boxes.reshape(len(boxes), 2 * dimensions).astype(float, copy=False)  # squares of large float32 overflow
     with_nan = np.isnan(flat).any(axis=1).sum()
     if with_nan > 0 and with_nan >= 0.1 * len(flat):
         return f"{with_nan} have a NaN"

@@ -10,8 +10,8 @@ namespace boxstream::python {
 /// From so many boxes on, what finds no pairs for a while is run apart.
 inline constexpr std::size_t least_apart = 200'000;
 
-/// The same of what handles no signals where it finds pairs: two million of them may take a tenth of a second.
-inline constexpr std::size_t least_apart_silent = 2'000;
+/// The same of what handles no signals where it finds pairs: eight million of them may take a quarter of a second.
+inline constexpr std::size_t least_apart_silent = 4'000;
 
 /// Runs `work` on a thread of its own, without the interpreter's lock, and returns when it has ended; throws what it
 /// throws. Signals are handled meanwhile.

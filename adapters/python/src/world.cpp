@@ -130,9 +130,11 @@ WorldStats PyWorld::update() {
     changes_ = 0;
     journal_.forget_stale(world);
   };
-  // Each change may begin a pair with every box; a million of them take a hundredth of a second.
-  constexpr std::size_t few_pairs = 20'000'000;
-  if (changes_ <= few_pairs / std::max<std::size_t>(1, size()))
+  // Each change may begin a pair with every box. Hardly any do, and to start a thread takes longer than to update
+  // thousands of boxes.
+  constexpr std::size_t few_pairs = 100'000'000;
+  const std::size_t boxes = std::max<std::size_t>(1, size());
+  if (changes_ <= few_pairs / boxes)
     change(update);
   else
     change_apart(update);

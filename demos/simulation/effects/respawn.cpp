@@ -33,9 +33,11 @@ void drop(SceneInstance& instance, Cloud& cloud) {
   const Quat rotation = g.turned ? cloud.random.rotation() : Quat{0, 0, 0, 1};
   btRigidBody& body = *instance.bodies[index];
   // As if it had just been made: forces and contacts of its former life are gone with the pairs; nor is it frozen.
-  const Body& description = instance.expanded.bodies[index];
-  const Mass mass = mass_of(description, instance.shapes.solid(description.traits.shape));
-  body.setMassProps(real(mass.mass), vector(mass.moments));
+  if (body.isStaticObject()) {
+    const Body& description = instance.expanded.bodies[index];
+    const Mass mass = mass_of(description, instance.shapes.solid(description.traits.shape));
+    body.setMassProps(real(mass.mass), vector(mass.moments));
+  }
   body.clearForces();
   instance.put(index, transform(place, rotation));
   body.setInterpolationWorldTransform(body.getWorldTransform());

@@ -9,6 +9,8 @@
 #include <optional>
 #include <variant>
 
+#include <boxstream/function_ref.hpp>
+
 #include "formats/geometry/frame.hpp"
 #include "simulation/effects/find.hpp"
 #include "simulation/effects/shape_size.hpp"
@@ -125,8 +127,9 @@ Haste haste_of_pendulum(const Body& body, const Vec3& centre, const Joint& joint
     for (Vec3* const v : {&arm, &gravity})
       *v = geometry::minus(*v, geometry::times(hinge->axis, geometry::dot(*v, hinge->axis)));
   const double radius = length(arm), fall = length(gravity) * radius - geometry::dot(gravity, arm);
-  const double speed = std::sqrt(std::pow(length(body.velocity), 2) + 2 * std::max(0.0, fall));
-  return {speed, radius > 0 ? speed / radius : 0};
+  const double start = std::max(length(body.velocity), length(geometry::cross(body.spin, arm)));
+  const double speed = std::sqrt(start * start + 2 * std::max(0.0, fall));
+  return {speed, std::max(length(body.spin), radius > 0 ? speed / radius : 0)};
 }
 
 /// Where drag takes as much as gravity gives.
@@ -136,20 +139,20 @@ double terminal_speed(const DragField& drag, double weight) {
 }
 
 /// Of what flies, swings or sinks and meets nothing; none where more acts on it.
-std::optional<Haste> haste_of(const Subject& subject, std::size_t index, const Held& held, const Mass& mass) {
+std::optional<Haste> haste_of(const Subject& subject, std::size_t index, const Held& held, FunctionRef<Mass()> mass) {
   const Scene& scene = subject.scene;
   const Body& body = subject.expanded.bodies[index];
   const double gravity = strength_of_gravity(scene.world);
   if (held.is_driven || scene.world.tumbling) return std::nullopt;
   if (gravity == 0 && scene.fields.empty()) return Haste{length(body.velocity), length(body.spin)};
   if (scene.fields.empty() && is_pendulum(subject, index, held))
-    return haste_of_pendulum(body, geometry::Frame{body.position, body.rotation}.place(mass.frame.origin), *held.last,
+    return haste_of_pendulum(body, geometry::Frame{body.position, body.rotation}.place(mass().frame.origin), *held.last,
                              scene.world.gravity);
   if (gravity == 0 || held.joints > 0) return std::nullopt;
   if (scene.fields.empty()) return Haste{length(body.velocity) + gravity * rest_time, length(body.spin)};
   const auto* const drag = std::get_if<DragField>(&scene.fields.front());
-  if (drag == nullptr || drag->density > 0 || scene.fields.size() > 1) return std::nullopt;
-  return Haste{terminal_speed(*drag, mass.mass * gravity), 0};
+  if (drag == nullptr || drag->density > 0 || scene.fields.size() > 1 || has_contacts(subject)) return std::nullopt;
+  return Haste{terminal_speed(*drag, mass().mass * gravity), 0};
 }
 
 /// What moves slowly though nothing has brought it to rest, and would move on, is put to rest by Bullet.
@@ -158,13 +161,19 @@ void find_drowsy(const Subject& subject, std::vector<std::string>& lines) {
   const Scene& scene = subject.scene;
   const std::vector<Body>& bodies = subject.expanded.bodies;
   if (scene.time.dt * (scene.time.steps + scene.time.warmup_steps) <= rest_time) return;
+  const bool all_fall = scene.fields.empty() && subject.expanded.joints.empty();
+  if (all_fall && strength_of_gravity(scene.world) * rest_time >= slow) return;
   const std::vector<Held> held = held_by_joints(subject);
-  ShapeSet shapes(subject.expanded.shapes);
+  std::optional<ShapeSet> shapes;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodyTraits& traits = bodies[i].traits;
     if (!is_dynamic(bodies[i]) || !traits.sleep) continue;
     const ShapeSize size = size_of(subject.expanded.shapes, traits.shape);
-    const std::optional<Haste> haste = haste_of(subject, i, held[i], mass_of(bodies[i], shapes.solid(traits.shape)));
+    const auto mass = [&] {
+      if (!shapes) shapes.emplace(subject.expanded.shapes);
+      return mass_of(bodies[i], shapes->solid(traits.shape));
+    };
+    const std::optional<Haste> haste = haste_of(subject, i, held[i], mass);
     const double speed = haste ? haste->speed / (slow * (size.is_small() ? size.largest : 1)) : 0;
     const double spin = haste ? haste->spin / slow_spin : 0;
     if (std::max(speed, spin) < still || std::max(speed, spin) >= 1) continue;

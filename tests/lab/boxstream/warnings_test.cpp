@@ -199,6 +199,10 @@ TEST(Warnings, NameWhatIsPutToRestInTheMiddleOfItsMotion) {
   EXPECT_TRUE(says(warnings(scene), "body 0 comes to 0.5 m/s"));
   scene["fields"][0]["linear"] = 30;
   EXPECT_EQ(warnings(scene), json::array());
+  scene["fields"][0]["linear"] = 60;
+  scene["bodies"][1] = {{"shape", "floor"}, {"type", "static"}, {"position", {0, 3, 0}}};
+  EXPECT_EQ(warnings(scene), json::array()) << "it may lie there";
+  scene["bodies"].erase(1);
   // A pendulum of 2 m that starts 0.2 rad from the vertical: 2 * sqrt(10 * 2) * sin(0.1) m/s.
   scene.erase("fields");
   scene["bodies"][0]["name"] = "bob";
@@ -209,6 +213,13 @@ TEST(Warnings, NameWhatIsPutToRestInTheMiddleOfItsMotion) {
   EXPECT_TRUE(says(warnings(scene), "comes to 0.45 m/s and 0.22 rad/s at most, " + rest));
   scene["bodies"][0]["position"] = {0, 4, 0};
   EXPECT_EQ(warnings(scene), json::array()) << "it hangs still";
+  scene["bodies"][0]["spin"] = {0, 0, 0.3};
+  EXPECT_TRUE(says(warnings(scene), "comes to 0.6 m/s and 0.3 rad/s at most, " + rest));
+  // About its centre it turns at what it has.
+  scene["bodies"][0]["position"] = {0, 6, 0};
+  EXPECT_TRUE(says(warnings(scene), "comes to 0 m/s and 0.3 rad/s at most, " + rest));
+  scene["bodies"][0]["spin"] = {0, 0, 30};
+  EXPECT_EQ(warnings(scene), json::array());
 }
 
 TEST(Warnings, NameWhatSleepsWhereGravityTurnsSlowly) {

@@ -104,16 +104,17 @@ def test_what_was_left_ends_and_serves_again(apart):
 
 
 def crowded(count):
-    """A World of boxes in one place, before its first update."""
+    """A World of boxes in one place, and of others, before its first update."""
     world = boxstream.World()
     world.create(np.zeros((count, 6), np.float32))
+    world.create(grid(20_000))
     return world
 
 
 def test_few_boxes_with_many_pairs_are_left_while_they_go_on():
-    crowd, detector, world = np.zeros((12_000, 6), np.float32), boxstream.Detector(), crowded(5500)
-    for call, use in [(lambda: detector.find_neighbours(crowd[:8000]), lambda: detector.scratch_bytes),
-                      (lambda: detector.find_pairs_in_sets(crowd, [0, 12_000]), lambda: detector.scratch_bytes),
+    crowd, detector, world = np.zeros((8000, 6), np.float32), boxstream.Detector(), crowded(5500)
+    for call, use in [(lambda: detector.find_neighbours(crowd), lambda: detector.scratch_bytes),
+                      (lambda: detector.find_pairs_in_sets(crowd, [0, 8000]), lambda: detector.scratch_bytes),
                       (world.update, lambda: len(world))]:
         assert interrupted(call) is not None
         with pytest.raises(RuntimeError, match="in use"):

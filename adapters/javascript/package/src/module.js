@@ -78,9 +78,10 @@ export function lend(arrays, use) {
 
 /** Byte by byte: constructors of classes that extend typed arrays take what they like. */
 function copyOf(array) {
-  const copy = functions.allocate(array.byteLength) >>> 0;
+  const bytes = array.byteLength; // once: a worker may make a shared array longer meanwhile
+  const copy = functions.allocate(bytes) >>> 0;
   if (copy === 0) throw new RangeError("boxstream: out of memory");
-  new Uint8Array(memory.buffer, copy).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength));
+  new Uint8Array(memory.buffer, copy, bytes).set(new Uint8Array(array.buffer, array.byteOffset, bytes));
   return copy;
 }
 
