@@ -178,10 +178,21 @@ TEST(MeshFiles, OfStlEndWithTheirLastSolid) {
     for (int i = 0; i < lines; ++i) end = solid.find('\n', end) + 1;
     return solid.substr(0, end);
   };
-  EXPECT_EQ(complaint(read_stl, first_lines(15)), "line 15: cut off: no endsolid");
-  EXPECT_EQ(complaint(read_stl, solid + first_lines(29)), "line 59: cut off: no endsolid");
-  EXPECT_EQ(complaint(read_stl, first_lines(12)), "line 12: cut off");
+  for (const int lines : {9, 11, 12, 13})
+    EXPECT_EQ(complaint(read_stl, first_lines(lines)), "line " + std::to_string(lines) + ": cut off");
+  const std::string note = "no endsolid after its last facet: it may be cut off";
+  for (const auto& [text, triangles] :
+       {std::pair{first_lines(14), 2u}, {first_lines(15), 2u}, {solid + first_lines(29), 8u}}) {
+    EXPECT_EQ(read_stl(text).triangles.size(), triangles);
+    EXPECT_EQ(imports::unread_in_stl(text), note);
+  }
   EXPECT_EQ(read_stl(solid + solid).triangles.size(), 8u);
+  for (const std::string end :
+       {"endsolid\n", "endsolidPlate", "ENDSOLID plate\n", "end solid plate of steel\n", "End Solid"}) {
+    const std::string text = first_lines(29) + end;
+    EXPECT_EQ(read_stl(text + "\n" + text).triangles.size(), 8u) << end;
+    EXPECT_EQ(imports::unread_in_stl(text), "") << end;
+  }
 }
 
 TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {
