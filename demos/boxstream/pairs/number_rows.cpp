@@ -8,7 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -122,18 +121,20 @@ std::string why_no_balls(const std::vector<std::string>& names, std::size_t dime
   return {};
 }
 
-bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
-  return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return name.find(part) != name.npos; });
-}
-
 /// Why columns of these names are no boxes; empty if they are, or have names that say nothing of that.
 std::string why_no_boxes(const std::vector<std::string>& names) {
+  const auto has = [](const std::string& name, const char* part) { return name.find(part) != name.npos; };
   std::string ends;  // '<' for a minimum, '>' for a maximum
   for (const std::string& name : names) {
     const std::string lower = lower_case(name);
-    if (has_any(lower, {"min", "lo"}))
+    // "lo" and "hi" stand in other words, too, as in longitude_max.
+    if (has(lower, "min"))
       ends += '<';
-    else if (has_any(lower, {"max", "hi"}))
+    else if (has(lower, "max"))
+      ends += '>';
+    else if (has(lower, "lo"))
+      ends += '<';
+    else if (has(lower, "hi"))
       ends += '>';
   }
   if (ends.size() != 6 || ends == "<<<>>>") return {};

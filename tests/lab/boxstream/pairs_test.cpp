@@ -69,10 +69,13 @@ TEST(Pairs, ColumnsInAnotherOrderAreRefused) {
                  {"standard input:2: the columns are called xmin, xmax, ymin, ymax, zmin, zmax: three minima come "
                   "first, then three maxima"});
   expect_refusal(run("x_hi,y_hi,z_hi,x_lo,y_lo,z_lo\n" + row), {"three minima come first"});
-  for (const char* const header : {"MinX,MinY,MinZ,MaxX,MaxY,MaxZ\n", "lx,ly,lz,hx,hy,hz\n",
-                                   "low x,low y,low z,high "
-                                   "x,high y,high z\n",
-                                   "boxes\n"})
+  expect_refusal(run("lon_max,lat_max,alt_max,lon_min,lat_min,alt_min\n" + row), {"three minima come first"});
+  for (const char* const header :
+       {"lon_min,lat_min,height_min,lon_max,lat_max,height_max\n", "slope_min_x,y_min,z_min,slope_max_x,y_max,z_max\n",
+        "MinX,MinY,MinZ,MaxX,MaxY,MaxZ\n", "lx,ly,lz,hx,hy,hz\n",
+        "low x,low y,low z,high "
+        "x,high y,high z\n",
+        "boxes\n"})
     EXPECT_EQ(run(header + row).out, "boxes 1, pairs 0\n") << header;
 }
 
