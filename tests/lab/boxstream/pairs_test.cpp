@@ -80,11 +80,17 @@ TEST(Pairs, ColumnsInAnotherOrderAreRefused) {
 }
 
 TEST(Pairs, AnEmptyFieldIsNoNumber) {
-  for (const char* const row : {"0,0,0,,1,1,1", "0,0,0, ,1,1,1", "0,0,0,,1,1"}) {
+  for (const char* const row : {"0,0,0,,1,1,1", "0,0,0, ,1,1,1", "0,0,0,,1,1", ",,0,0,0,1,1,1", "0,0,0,1,1,1, ,"}) {
     SCOPED_TRACE(row);
     expect_refusal(run_tool({"pairs", "-"}, {row, false}), {"standard input:1: an empty field between two commas"});
   }
   EXPECT_EQ(run_tool({"pairs", "-"}, {"0,0,0,1,1,1,\n,,,,,\n", false}).out, "boxes 1, pairs 0\n");
+}
+
+TEST(Pairs, SpecialNumbersAreNoNames) {
+  const auto run = [](const std::string& rows) { return run_tool({"pairs", "-"}, {rows, false}); };
+  expect_refusal(run("nan nan 0,nan 1 nan\n0 0 0 1 1 1\n"), {"standard input:1: NaN is not a coordinate"});
+  EXPECT_EQ(run("inf 2 2,inf 3 3\n0 2 2 inf 3 3\n").out, "boxes 2, pairs 1\n");
 }
 
 TEST(Pairs, BadRowsAreNamedByLine) {
