@@ -301,9 +301,13 @@ class Robot {
         left_out("limits beyond half a turn", joint);
         return;
       }
-    } else if (low < -farthest || high > farthest) {
+    } else if (low < -farthest && high > farthest) {
       left_out("limits beyond 100 km", joint);
       return;
+    } else {
+      // The other end may be a stop that the joint meets.
+      low = std::max(low, -farthest);
+      high = std::min(high, farthest);
     }
     item["limits"] = {low, high};
   }
