@@ -211,6 +211,11 @@ TEST(Urdf, ElementsOfOtherProgramsAreNamed) {
   const json contact = import(without(post_and_bar, "<link name=\"bar\">",
                                       R"(<link name="bar"><contact><lateral_friction value="0.2"/></contact>)"));
   EXPECT_EQ(contact["notes"], json::parse(R"(["elements <contact>: left out"])"));
+  for (const char* const none : {R"(<contact_coefficients mu="0.3"/>)", R"(<!-- <gazebo/> --><!-- <contact>
+      </contact> -->)"})
+    EXPECT_TRUE(import(without(post_and_bar, "</robot>", none + std::string("</robot>")))["notes"].empty()) << none;
+  const json both = import(without(post_and_bar, "</robot>", "<!-- one --><gazebo\n/><!-- two --><contact/></robot>"));
+  EXPECT_EQ(both["notes"], json::parse(R"(["elements <contact>: left out", "elements <gazebo>: left out"])"));
 }
 
 /// The tensor that a body of the scene has, about its centre and along the axes of the file.
