@@ -156,6 +156,25 @@ TEST(MeshFiles, OfVeryManyCornersAreConvexOrRefused) {
   EXPECT_EQ(complaint(read_obj, round_face(2600, 0.4)), "face 0, from 0 on: a face of 2600 corners that is not convex");
 }
 
+/// Of length 3 and width 2e-9; there along one side and back along the other, each up and down by turns.
+std::string sliver(int corners, double up_and_down) {
+  std::string text, face = "f";
+  char line[100];
+  for (int i = 0; i < corners; ++i) {
+    const int half = corners / 2, along = i < half ? i : corners - 1 - i;
+    const double y = (i < half ? -1e-9 : 1e-9) + (i % 2 == 0 ? up_and_down : -up_and_down);
+    std::snprintf(line, sizeof line, "v %.17g %.17g 0.2\n", 3.0 * along / (half - 1), y);
+    text += line;
+    face += ' ' + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+TEST(MeshFiles, OfVeryManyCornersMayBeSliversThatRoundingBends) {
+  for (const double rounding : {0.0, 1e-9, 2e-8}) EXPECT_EQ(read_obj(sliver(2400, rounding)).triangles.size(), 2398u);
+  EXPECT_EQ(complaint(read_obj, sliver(2400, 0.01)), "face 0, from 0 on: a face of 2400 corners that is not convex");
+}
+
 TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
   std::string solid = as_binary_stl(tetrahedron());
   solid.replace(0, 5, "solid");
