@@ -10,6 +10,7 @@
 #include "base/output_file.hpp"
 #include "base/words.hpp"
 #include "boxstream/advice/warnings.hpp"
+#include "boxstream/explain/price_list.hpp"
 #include "boxstream/explain/tried.hpp"
 #include "boxstream/shared/bad_input.hpp"
 #include "boxstream/shared/command.hpp"
@@ -17,7 +18,6 @@
 #include "boxstream/shared/report.hpp"
 #include "boxstream/shared/scene_files.hpp"
 #include "formats/scene_model/names.hpp"
-#include "simulation/effects/effects.hpp"
 #include "simulation/effects/plan.hpp"
 
 namespace boxstream::tool {
@@ -25,11 +25,6 @@ namespace boxstream::tool {
 extern const char* const prices_json;  // made from demos/simulation/effects/prices.json by CMake
 
 namespace {
-
-/// Nanoseconds a body and step, and the least and the greatest of what was measured.
-struct MeasuredPrice {
-  double ns, low, high;
-};
 
 /// What effects cost where a scene calls for them, by name.
 using Prices = std::map<std::string, MeasuredPrice>;
@@ -54,15 +49,9 @@ struct ExplainOptions {
 
 using effects::Decision;
 
-std::string cost_text(const Prices& prices, const effects::Effect& effect) {
+std::string cost_in(const Prices& prices, const effects::Effect& effect) {
   const auto price = prices.find(effect.name);
-  if (price == prices.end()) return "-";
-  const auto& [ns, low, high] = price->second;
-  if (low <= 0 && high >= 0) return fmt::format("within noise: {:.1f} to {:.1f}", low, high);
-  // Of all effects one is there to save time.
-  if (ns < 0 && &effect == &effects::sleeping) return fmt::format("saves {:.3g}", -ns);
-  if (ns < 0) return fmt::format("noise: {:.3g}", ns);
-  return fmt::format("{:.3g}", ns);
+  return price == prices.end() ? "-" : cost_text(price->second, effect);
 }
 
 std::string table(const scenes::Scene& scene, const effects::Plan& plan, const Prices& prices,
@@ -76,12 +65,12 @@ std::string table(const scenes::Scene& scene, const effects::Plan& plan, const P
   row("effect", "", "ns", "why, and what is built for it");
   for (const Decision& decision : plan)
     if (decision.call)
-      row(decision.effect->name, "on", cost_text(prices, *decision.effect),
+      row(decision.effect->name, "on", cost_in(prices, *decision.effect),
           files::printable(
               fmt::format("{}: {}; {}", decision.call->pointer, decision.call->reason, decision.effect->builds)));
   for (const Decision& decision : plan)
     if (!decision.call)
-      row(decision.effect->name, "off", cost_text(prices, *decision.effect),
+      row(decision.effect->name, "off", cost_in(prices, *decision.effect),
           fmt::format("would be: {}", decision.effect->builds));
   if (scene.solver.precision == scenes::Precision::doubled)
     out += "\ndouble   /solver/precision: boxstream simulate runs it on the Bullet of double precision.\n";

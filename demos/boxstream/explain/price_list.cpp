@@ -180,4 +180,13 @@ std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status)
   return prices;
 }
 
+std::string cost_text(const MeasuredPrice& price, const effects::Effect& effect) {
+  const auto [ns, low, high] = price;
+  if (low <= 0 && high >= 0) return fmt::format("within noise: {:.1f} to {:.1f}", low, high);
+  // Of all effects one is there to save time.
+  if (ns < 0 && &effect == &effects::sleeping) return fmt::format("saves {:.3g}", -ns);
+  if (ns < 0) return fmt::format("noise: {:.3g}", ns);
+  return fmt::format("{:.3g}", ns);
+}
+
 }  // namespace boxstream::tool

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boxstream/shared/print.hpp"
+#include "simulation/effects/effect.hpp"
 
 namespace boxstream::tool {
 
@@ -37,5 +38,13 @@ struct PriceEffort {
 
 /// Measures all effects, on the scenes that come with the tool. Throws BadInput if these are not there.
 std::vector<Price> measure_prices(const PriceEffort& effort, StatusLine& status);
+
+/// As it is recorded: nanoseconds a body and step, and the least and the greatest of what was measured.
+struct MeasuredPrice {
+  double ns, low, high;
+};
+
+/// What a table says of it.
+std::string cost_text(const MeasuredPrice& price, const effects::Effect& effect);
 
 }  // namespace boxstream::tool

@@ -206,7 +206,7 @@ extern const Command near_command{"near", "Find all points, disks or balls withi
 All pairs of points that are at most the radius apart; of disks and balls, all whose gap is at most the radius. "At most"
 is exact for the numbers as they are read, to the last bit. One object a line: x y, x y z, or x y z radius, separated by
 blanks or commas, all lines alike; with --dimensions 2, x y or x y radius. '#' starts a comment; a first line without a
-number names the columns: as many as there are, and none of them an id, an index, a frame or a time.
+number is a title, or names the columns: as many as there are, and none of them an id, an index, a frame or a time.
 
 --csv and --json give each pair (numbers of objects counted from 0) with its gap, in order. --list prints the pairs in
 place of their number.

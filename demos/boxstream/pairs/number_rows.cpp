@@ -8,7 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -34,8 +33,9 @@ std::string parse(std::string_view line, std::size_t most, std::vector<double>& 
   row.clear();
   for (;;) {
     const std::string_view gap = cut(line, line.find_first_not_of(separators));
-    if (line.empty()) return {};
+    // One comma may end a row.
     if (std::count(gap.begin(), gap.end(), ',') > 1) return "an empty field between two commas";
+    if (line.empty()) return {};
     const std::string_view word = cut(line, line.find_first_of(separators));
     // from_chars knows no sign but a minus.
     const bool has_plus = word[0] == '+' && word.substr(1, 1) != "-";
@@ -61,37 +61,55 @@ bool next_line(std::istream& in, const std::string& name, std::size_t number, st
   return !line.empty();
 }
 
+struct Name {
+  std::string_view text;
+  bool quoted;
+};
+
 /// Takes the next name off a header that begins with one, without the quotes around it.
-std::string_view next_name(std::string_view& line, std::string_view ends) {
+Name next_name(std::string_view& line, std::string_view ends) {
   if (line[0] == '"' || line[0] == '\'') {
     const char quote = cut(line, 1)[0];
     const std::string_view name = cut(line, line.find(quote));
     cut(line, 1);
-    return name;
+    return {name, true};
   }
   const std::string_view name = cut(line, line.find_first_of(ends));
-  return name.substr(0, name.find_last_not_of(separators) + 1);
+  return {name.substr(0, name.find_last_not_of(separators) + 1), false};
 }
 
-/// Names of columns, or anything else that has no number in it.
-bool is_header(std::string_view line, std::vector<std::string>& names) {
+/// The first line of a table, if it has no numbers.
+struct Header {
+  std::vector<std::string> names;
+  bool is_title = false;  // perhaps: words, and not names of columns
+};
+
+/// Nothing for a row of numbers.
+std::optional<Header> header_in(std::string_view line) {
+  Header header;
   cut(line, line.find_first_not_of(separators));
   for (const std::string_view comment : {"%", "//"})
     if (line.starts_with(comment)) cut(line, comment.size());
   // Between commas or tabs, names may have blanks in them.
   const auto has = [line](char c) { return line.find(c) != line.npos; };
   const std::string_view ends = has(',') ? "," : has('\t') ? "\t" : separators;
+  const bool at_blanks = ends == separators;
   for (cut(line, line.find_first_not_of(separators)); !line.empty(); cut(line, line.find_first_not_of(separators))) {
-    const std::string_view name = next_name(line, ends);
+    const auto [name, quoted] = next_name(line, ends);
     double value = 0;
     const char* const name_end = name.data() + name.size();
     const auto [end, error] = std::from_chars(name.data(), name_end, value);
-    if (error != std::errc::invalid_argument && end == name_end) return false;
+    const bool ends_there = end == name_end || separators.find(*end) != separators.npos;
+    if (error != std::errc::invalid_argument && ends_there) return std::nullopt;
     // "0;0;0" is no name, but numbers that are written otherwise.
-    if (!name.empty() && name.find_first_of("0123456789+-.") == 0) return false;
-    names.emplace_back(name);
+    if (!name.empty() && name.find_first_of("0123456789+-.") == 0) return std::nullopt;
+    // "x (m) y (m)" are two names with units.
+    if (at_blanks && name.find_first_of("([") == 0 && name.find_last_of(")]") == name.size() - 1) continue;
+    constexpr std::size_t longest_coordinate = 2;
+    if (at_blanks && !quoted && name.size() > longest_coordinate) header.is_title = true;
+    header.names.emplace_back(name);
   }
-  return true;
+  return header;
 }
 
 std::string lower_case(std::string name) {
@@ -122,18 +140,20 @@ std::string why_no_balls(const std::vector<std::string>& names, std::size_t dime
   return {};
 }
 
-bool has_any(const std::string& name, std::initializer_list<std::string_view> parts) {
-  return std::any_of(parts.begin(), parts.end(), [&](std::string_view part) { return name.find(part) != name.npos; });
-}
-
 /// Why columns of these names are no boxes; empty if they are, or have names that say nothing of that.
 std::string why_no_boxes(const std::vector<std::string>& names) {
+  const auto has = [](const std::string& name, const char* part) { return name.find(part) != name.npos; };
   std::string ends;  // '<' for a minimum, '>' for a maximum
   for (const std::string& name : names) {
     const std::string lower = lower_case(name);
-    if (has_any(lower, {"min", "lo"}))
+    // "lo" and "hi" stand in other words, too, as in longitude_max.
+    if (has(lower, "min"))
       ends += '<';
-    else if (has_any(lower, {"max", "hi"}))
+    else if (has(lower, "max"))
+      ends += '>';
+    else if (has(lower, "lo"))
+      ends += '<';
+    else if (has(lower, "hi"))
       ends += '>';
   }
   if (ends.size() != 6 || ends == "<<<>>>") return {};
@@ -147,7 +167,7 @@ void read_number_rows(std::istream& in, const std::string& name, std::size_t mos
                       std::vector<std::string>* names) {
   bool first = true;
   std::vector<double> row;
-  std::vector<std::string> header;
+  std::optional<Header> header;
   for (std::string line; next_line(in, name, number, line); ++number) {
     if (number > most_lines) throw BadInput(fmt::format("{}: more than {} lines", name, most_lines));
     std::string_view text = line;
@@ -157,14 +177,15 @@ void read_number_rows(std::istream& in, const std::string& name, std::size_t mos
       text.remove_prefix(3);  // a mark that programs of Windows put there
     text = text.substr(0, text.find('#'));
     if (text.find_first_not_of(separators) == std::string_view::npos) continue;
-    if (std::exchange(first, false) && is_header(text, header)) {
-      if (names != nullptr) *names = header;
+    if (std::exchange(first, false) && (header = header_in(text))) {
+      if (names != nullptr) *names = header->names;
       continue;
     }
     std::string reason = parse(text, most, row);
+    const std::size_t named = header && !header->is_title ? header->names.size() : 0;
     // One name is a title. A name more or less is that of a column that would be taken for another.
-    if (reason.empty() && header.size() > 1 && header.size() != row.size())
-      reason = fmt::format("the first line names {} columns, the row has {} numbers", header.size(), row.size());
+    if (reason.empty() && named > 1 && named != row.size())
+      reason = fmt::format("the first line names {} columns, the row has {} numbers", named, row.size());
     if (reason.empty()) reason = take(row);
     if (!reason.empty()) throw BadInput(fmt::format("{}:{}: {}", name, number, reason));
   }

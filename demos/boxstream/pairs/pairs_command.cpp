@@ -100,7 +100,7 @@ extern const Command pairs_command{"pairs", "Find the pairs in a file of boxes o
   boxstream pairs --list - < boxes.txt
 
 One box a line: minx miny minz maxx maxy maxz, separated by blanks or commas; '#' starts a comment, and a first line
-without a number names the columns, three minima, then three maxima. Boxes are closed: touching counts. --list prints
+without a number is a title, or names the columns, three minima, then three maxima. Boxes are closed: touching counts. --list prints
 the pairs in place of their number, one a line, as numbers of boxes counted from 0. --method hybrid finds the same ones
 by the streamed segment tree of Zomorodian and Edelsbrunner alone.
 

@@ -30,7 +30,8 @@ void note_large(const TriangleMesh& mesh, Fragment& out) {
 
 void add_mesh_body(const std::string& path, const ImportOptions& options, Fragment& out) try {
   const TriangleMesh mesh = read_mesh(path, options.scale);
-  note_large(mesh, out);
+  const bool is_as_written = options.scale == scenes::Vec3{1, 1, 1};
+  if (is_as_written && !options.keep_still) note_large(mesh, out);  // land may be large
   if (const std::size_t left_over = left_over_vertices(mesh); left_over > 0)
     out.note(std::to_string(left_over) + " vertices belong to no triangle: left out");
   if (const std::string note = surface_note(path); !note.empty()) out.note(note);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
@@ -71,10 +72,30 @@ std::string text_of(const std::string& path) {
   return text;
 }
 
+std::string without_comments(const std::string& text) {
+  std::string rest;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = std::min(text.find("<!--", at), text.size());
+    rest.append(text, at, begin - at);
+    at = std::min(text.find("-->", begin), text.size() - 3) + 3;
+  }
+  return rest;
+}
+
+/// Whether an XML text without comments has an element that is begun by `tag`, as "<link".
+bool has_element(const std::string& text, const std::string& tag) {
+  for (std::size_t at = 0; (at = text.find(tag, at)) != text.npos;) {
+    at += tag.size();
+    // Other elements begin with the same letters.
+    if (at < text.size() && std::string_view(" \t\r\n/>").find(text[at]) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
 /// Elements of other programs, which say how links rub and bounce.
 void note_extensions(const std::string& text, Fragment& out) {
-  for (const std::string element : {"<contact", "<gazebo"})
-    if (text.find(element) != text.npos) out.note("elements " + element + ">: left out");
+  for (const std::string tag : {"<contact", "<gazebo"})
+    if (has_element(text, tag)) out.note("elements " + tag + ">: left out");
 }
 
 urdf::ModelInterfaceSharedPtr parse(const std::string& text) {
@@ -301,9 +322,13 @@ class Robot {
         left_out("limits beyond half a turn", joint);
         return;
       }
-    } else if (low < -farthest || high > farthest) {
+    } else if (low < -farthest && high > farthest) {
       left_out("limits beyond 100 km", joint);
       return;
+    } else {
+      // The other end may be a stop that the joint meets.
+      low = std::max(low, -farthest);
+      high = std::min(high, farthest);
     }
     item["limits"] = {low, high};
   }
@@ -370,7 +395,7 @@ class Robot {
 void read_urdf(const std::string& path, const ImportOptions& options, Fragment& out) {
   const std::string text = text_of(path);
   Robot(path, options, out).add(*parse(text));
-  note_extensions(text, out);
+  note_extensions(without_comments(text), out);
 }
 
 }  // namespace boxstream::imports

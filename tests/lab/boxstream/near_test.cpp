@@ -72,6 +72,8 @@ TEST(Near, AnIndexIsNoCoordinate) {
                    {"standard input:2: the first line names 3 columns, the row has 4 numbers"});
   expect_refusal(run("x\ty\n2,5\t3,25\n"), {"standard input:2: the first line names 2 columns, the row has 4 numbers"});
   expect_refusal(run("% x y\n7 8 9\n"), {"the first line names 2 columns, the row has 3 numbers"});
+  expect_refusal(run("\"east\" \"north\"\n7 8 9\n"), {"the first line names 2 columns, the row has 3 numbers"});
+  expect_refusal(run("x (m) y (m)\n7 8 9\n"), {"the first line names 2 columns, the row has 3 numbers"});
   EXPECT_EQ(run("% x y z\n1 2 3\n").out, "objects 1, pairs 0\n");
   EXPECT_EQ(run("//x y z\n1 2 3\n").out, "objects 1, pairs 0\n");
   EXPECT_EQ(run("x in m,y in m,z in m\n1,2,3\n").out, "objects 1, pairs 0\n");
@@ -80,6 +82,13 @@ TEST(Near, AnIndexIsNoCoordinate) {
     expect_refusal(run(name + std::string(",x,y\n1,2,3\n")), {"standard input:2: column 1 would be x, and is called"});
     expect_refusal(run("x,y," + std::string(name) + "\n1,2,3\n"), {"column 3 would be z, and is called"});
   }
+}
+
+TEST(Near, ATitleMayHaveWords) {
+  const auto run = [](const std::string& rows) { return run_tool({"near", "-", "--radius", "1"}, {rows, false}); };
+  for (const char* const header : {"Points", "Trees in the park", "Scanned by hand in May", "x [m] y [m] z [m]",
+                                   "x (mm) y (mm) z (mm)", "[x y z]", "east north up"})
+    EXPECT_EQ(run(header + std::string("\n4 5 6\n")).out, "objects 1, pairs 0\n") << header;
 }
 
 TEST(Near, WritesTables) {

@@ -69,19 +69,28 @@ TEST(Pairs, ColumnsInAnotherOrderAreRefused) {
                  {"standard input:2: the columns are called xmin, xmax, ymin, ymax, zmin, zmax: three minima come "
                   "first, then three maxima"});
   expect_refusal(run("x_hi,y_hi,z_hi,x_lo,y_lo,z_lo\n" + row), {"three minima come first"});
-  for (const char* const header : {"MinX,MinY,MinZ,MaxX,MaxY,MaxZ\n", "lx,ly,lz,hx,hy,hz\n",
-                                   "low x,low y,low z,high "
-                                   "x,high y,high z\n",
-                                   "boxes\n"})
+  expect_refusal(run("lon_max,lat_max,alt_max,lon_min,lat_min,alt_min\n" + row), {"three minima come first"});
+  for (const char* const header :
+       {"lon_min,lat_min,height_min,lon_max,lat_max,height_max\n", "slope_min_x,y_min,z_min,slope_max_x,y_max,z_max\n",
+        "MinX,MinY,MinZ,MaxX,MaxY,MaxZ\n", "lx,ly,lz,hx,hy,hz\n",
+        "low x,low y,low z,high "
+        "x,high y,high z\n",
+        "boxes\n"})
     EXPECT_EQ(run(header + row).out, "boxes 1, pairs 0\n") << header;
 }
 
 TEST(Pairs, AnEmptyFieldIsNoNumber) {
-  for (const char* const row : {"0,0,0,,1,1,1", "0,0,0, ,1,1,1", "0,0,0,,1,1"}) {
+  for (const char* const row : {"0,0,0,,1,1,1", "0,0,0, ,1,1,1", "0,0,0,,1,1", ",,0,0,0,1,1,1", "0,0,0,1,1,1, ,"}) {
     SCOPED_TRACE(row);
     expect_refusal(run_tool({"pairs", "-"}, {row, false}), {"standard input:1: an empty field between two commas"});
   }
   EXPECT_EQ(run_tool({"pairs", "-"}, {"0,0,0,1,1,1,\n,,,,,\n", false}).out, "boxes 1, pairs 0\n");
+}
+
+TEST(Pairs, SpecialNumbersAreNoNames) {
+  const auto run = [](const std::string& rows) { return run_tool({"pairs", "-"}, {rows, false}); };
+  expect_refusal(run("nan nan 0,nan 1 nan\n0 0 0 1 1 1\n"), {"standard input:1: NaN is not a coordinate"});
+  EXPECT_EQ(run("inf 2 2,inf 3 3\n0 2 2 inf 3 3\n").out, "boxes 2, pairs 1\n");
 }
 
 TEST(Pairs, BadRowsAreNamedByLine) {

@@ -36,7 +36,7 @@ SEMANTIC = re.compile(
     r"|no body has these products|these two are named twice|\".*\" is named twice|a chassis is a dynamic body|the run ends after step")
 # Limits of the loader that depend on another key.
 DEPENDENT = re.compile(
-    r"/generators/\d+/rows: must be at most|/shapes/\d+/triangles/\d+/\d+: must be at most"
+    r"/generators/\d+/(rows|gap): must be at most|/shapes/\d+/triangles/\d+/\d+: must be at most"
     r"|/shapes/\d+/(heightfield/)?heights: must have|/shapes/\d+/margin: must be at most")
 
 

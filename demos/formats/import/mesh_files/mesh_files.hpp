@@ -28,7 +28,7 @@ RawMesh read_obj(std::string_view bytes);
 RawMesh read_ply(std::string_view bytes);
 /// ASCII and binary.
 RawMesh read_stl(std::string_view bytes);
-/// What a binary file has behind the triangles that it counts; empty if that is none.
+/// What a binary file has behind the triangles that it counts, or that a text ends without "endsolid"; else empty.
 std::string unread_in_stl(std::string_view bytes);
 /// With and without colours and normals (OFF, COFF, NOFF, CNOFF, STOFF); of three dimensions, in ASCII.
 RawMesh read_off(std::string_view bytes);

@@ -59,14 +59,16 @@ bool is_convex(const std::vector<Point>& points) {
 
 /// Whether a fan from the first corner has the polygon's own area, up to what rounding of corners on a line may do.
 bool is_like_fan(const std::vector<Point>& points) {
-  constexpr double rounding = 1e-4;  // of the area
-  double area = 0, too_much = 0;
+  constexpr double rounding = 1e-4;  // of the area, or, as slivers have next to none, of the square of the length
+  double area = 0, too_much = 0, length_squared = 0;
   for (std::size_t i = 2; i < points.size(); ++i) {
     const double part = turn(points[0], points[i - 1], points[i]);
     area += part;
     if (part < 0) too_much -= part;
+    const double x = points[i].x - points[0].x, y = points[i].y - points[0].y;
+    length_squared = std::max(length_squared, x * x + y * y);
   }
-  return too_much <= rounding * area;
+  return too_much <= rounding * std::max(area, length_squared);
 }
 
 /// Whether the corner `ear` of the rest of a polygon can be cut off: it turns to the left, and no other corner is

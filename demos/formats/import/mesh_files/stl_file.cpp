@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "formats/import/mesh_files/mesh_files.hpp"
 #include "formats/import/mesh_files/text_scan.hpp"
@@ -55,35 +56,45 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
                     [](char x, char y) { return x == y || (x >= 'A' && x <= 'Z' && x - 'A' + 'a' == y); });
 }
 
-RawMesh read_text(std::string_view text) {
+struct TextSolids {
   RawMesh mesh;
+  bool ended = true;  // the last of them has its last line
+};
+
+TextSolids read_text(std::string_view text) {
+  TextSolids solids;
   TextScan scan(text);
   try {
     std::size_t corners = 0;
-    bool in_solid = false;
+    bool in_facet = false;
     while (!scan.at_end()) {
       TextScan words(scan.line());
-      for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
-        if (is_keyword(word, "solid") || is_keyword(word, "endsolid")) {
-          in_solid = is_keyword(word, "solid");
+      std::string_view before;
+      for (std::string_view word = words.word(); !word.empty(); before = std::exchange(word, words.word())) {
+        // Some programs write "end solid", others write the name without a blank before it.
+        const bool after_end = is_keyword(before, "end"), ends_solid = is_keyword(word.substr(0, 8), "endsolid");
+        if (is_keyword(word, "solid") || ends_solid) {
+          solids.ended = ends_solid || after_end;
           break;  // what follows is a name
         }
-        if (is_keyword(word, "vertex")) {
-          mesh.vertices.push_back(coordinates_in(words));
+        if (is_keyword(word, "facet")) {
+          in_facet = !after_end;
+        } else if (is_keyword(word, "vertex")) {
+          solids.mesh.vertices.push_back(coordinates_in(words));
           ++corners;
         } else if (is_keyword(word, "endloop")) {
           if (corners != 3) throw std::runtime_error("a facet of " + std::to_string(corners) + " vertices");
-          add_facet(mesh);
+          add_facet(solids.mesh);
           corners = 0;
+          in_facet = false;
         }
       }
     }
-    if (corners != 0) throw std::runtime_error("cut off");
-    if (in_solid) throw std::runtime_error("cut off: no endsolid");
+    if (in_facet || corners != 0) throw std::runtime_error("cut off");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error("line " + std::to_string(scan.lines()) + ": " + error.what());
   }
-  return mesh;
+  return solids;
 }
 
 /// Files of bytes may begin with "solid", too: their size tells, or a zero, which no text has.
@@ -97,9 +108,11 @@ bool is_binary(std::string_view bytes) {
 
 }  // namespace
 
-// Some programs leave the count as it was before they wrote the triangles.
 std::string unread_in_stl(std::string_view bytes) {
-  if (!is_binary(bytes) || bytes.size() < header) return "";
+  if (!is_binary(bytes))
+    return read_text(TextScan::without_mark(bytes)).ended ? "" : "no endsolid after its last facet: it may be cut off";
+  if (bytes.size() < header) return "";
+  // Some programs leave the count as it was before they wrote the triangles.
   const std::size_t count = count_in(bytes), room = (bytes.size() - header) / facet;
   if (room <= count) return "";
   return "its count is " + std::to_string(count) + " triangles, and there are bytes of " + std::to_string(room) +
@@ -109,7 +122,7 @@ std::string unread_in_stl(std::string_view bytes) {
 RawMesh read_stl(std::string_view bytes) {
   if (is_binary(bytes)) return read_binary(bytes);
   const std::string_view text = TextScan::without_mark(bytes);
-  if (is_keyword(TextScan(text).word(), "solid")) return read_text(text);
+  if (is_keyword(TextScan(text).word(), "solid")) return read_text(text).mesh;
   throw std::runtime_error("a text that does not begin with \"solid\"");
 }
 

@@ -156,6 +156,25 @@ TEST(MeshFiles, OfVeryManyCornersAreConvexOrRefused) {
   EXPECT_EQ(complaint(read_obj, round_face(2600, 0.4)), "face 0, from 0 on: a face of 2600 corners that is not convex");
 }
 
+/// Of length 3 and width 2e-9; there along one side and back along the other, each up and down by turns.
+std::string sliver(int corners, double up_and_down) {
+  std::string text, face = "f";
+  char line[100];
+  for (int i = 0; i < corners; ++i) {
+    const int half = corners / 2, along = i < half ? i : corners - 1 - i;
+    const double y = (i < half ? -1e-9 : 1e-9) + (i % 2 == 0 ? up_and_down : -up_and_down);
+    std::snprintf(line, sizeof line, "v %.17g %.17g 0.2\n", 3.0 * along / (half - 1), y);
+    text += line;
+    face += ' ' + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+TEST(MeshFiles, OfVeryManyCornersMayBeSliversThatRoundingBends) {
+  for (const double rounding : {0.0, 1e-9, 2e-8}) EXPECT_EQ(read_obj(sliver(2400, rounding)).triangles.size(), 2398u);
+  EXPECT_EQ(complaint(read_obj, sliver(2400, 0.01)), "face 0, from 0 on: a face of 2400 corners that is not convex");
+}
+
 TEST(MeshFiles, OfStlAreBinaryWhenTheirSizeSaysSo) {
   std::string solid = as_binary_stl(tetrahedron());
   solid.replace(0, 5, "solid");
@@ -178,10 +197,21 @@ TEST(MeshFiles, OfStlEndWithTheirLastSolid) {
     for (int i = 0; i < lines; ++i) end = solid.find('\n', end) + 1;
     return solid.substr(0, end);
   };
-  EXPECT_EQ(complaint(read_stl, first_lines(15)), "line 15: cut off: no endsolid");
-  EXPECT_EQ(complaint(read_stl, solid + first_lines(29)), "line 59: cut off: no endsolid");
-  EXPECT_EQ(complaint(read_stl, first_lines(12)), "line 12: cut off");
+  for (const int lines : {9, 11, 12, 13})
+    EXPECT_EQ(complaint(read_stl, first_lines(lines)), "line " + std::to_string(lines) + ": cut off");
+  const std::string note = "no endsolid after its last facet: it may be cut off";
+  for (const auto& [text, triangles] :
+       {std::pair{first_lines(14), 2u}, {first_lines(15), 2u}, {solid + first_lines(29), 8u}}) {
+    EXPECT_EQ(read_stl(text).triangles.size(), triangles);
+    EXPECT_EQ(imports::unread_in_stl(text), note);
+  }
   EXPECT_EQ(read_stl(solid + solid).triangles.size(), 8u);
+  for (const std::string end :
+       {"endsolid\n", "endsolidPlate", "ENDSOLID plate\n", "end solid plate of steel\n", "End Solid"}) {
+    const std::string text = first_lines(29) + end;
+    EXPECT_EQ(read_stl(text + "\n" + text).triangles.size(), 8u) << end;
+    EXPECT_EQ(imports::unread_in_stl(text), "") << end;
+  }
 }
 
 TEST(MeshFiles, OfPlyHaveDoublesInEveryOrder) {

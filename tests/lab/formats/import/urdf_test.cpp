@@ -94,14 +94,15 @@ TEST(Urdf, NumbersWithoutMeaningAreNoLimits) {
     return without(without(post_and_bar, "\"revolute\"", "\"prismatic\""), R"(lower="-0.5" upper="1" effort="30")",
                    limits);
   };
-  for (const char* const limits :
-       {R"(lower="-1e7" upper="1e7" effort="30")", R"(lower="-0.25" upper="1e16" effort="30")"}) {
-    const json all = import(slider(limits));
-    EXPECT_FALSE(all["joints"][0].contains("limits"));
-    EXPECT_EQ(all["notes"], json::parse(R"(["limits beyond 100 km of joint \"hinge\": left out"])"));
-  }
-  EXPECT_EQ(import(slider(R"(lower="-1e5" upper="1e5" effort="30")"))["joints"][0]["limits"],
-            json::parse("[-1e5, 1e5]"));
+  const json endless = import(slider(R"(lower="-1e7" upper="1e7" effort="30")"));
+  EXPECT_FALSE(endless["joints"][0].contains("limits"));
+  EXPECT_EQ(endless["notes"], json::parse(R"(["limits beyond 100 km of joint \"hinge\": left out"])"));
+  // An end that is near stops the joint all the same.
+  const std::pair<const char*, const char*> cases[] = {{R"(lower="-1e5" upper="1e5" effort="30")", "[-1e5, 1e5]"},
+                                                       {R"(lower="-0.375" upper="1e16" effort="30")", "[-0.375, 1e5]"},
+                                                       {R"(lower="-3e9" upper="0.75" effort="30")", "[-1e5, 0.75]"}};
+  for (const auto& [limits, expected] : cases)
+    EXPECT_EQ(import(slider(limits))["joints"][0]["limits"], json::parse(expected)) << limits;
   ImportOptions options;
   options.hold = true;
   EXPECT_EQ(import(slider(R"(lower="0" upper="2" effort="4e12")"), options)["joints"][0]["motor"]["max_force"], 1e9);
@@ -210,6 +211,11 @@ TEST(Urdf, ElementsOfOtherProgramsAreNamed) {
   const json contact = import(without(post_and_bar, "<link name=\"bar\">",
                                       R"(<link name="bar"><contact><lateral_friction value="0.2"/></contact>)"));
   EXPECT_EQ(contact["notes"], json::parse(R"(["elements <contact>: left out"])"));
+  for (const char* const none : {R"(<contact_coefficients mu="0.3"/>)", R"(<!-- <gazebo/> --><!-- <contact>
+      </contact> -->)"})
+    EXPECT_TRUE(import(without(post_and_bar, "</robot>", none + std::string("</robot>")))["notes"].empty()) << none;
+  const json both = import(without(post_and_bar, "</robot>", "<!-- one --><gazebo\n/><!-- two --><contact/></robot>"));
+  EXPECT_EQ(both["notes"], json::parse(R"(["elements <contact>: left out", "elements <gazebo>: left out"])"));
 }
 
 /// The tensor that a body of the scene has, about its centre and along the axes of the file.
