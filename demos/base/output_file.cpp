@@ -111,6 +111,7 @@ OutputFile::OutputFile(const std::string& name, Input input) : name_(name), inpu
     place_ = name_;
     open_in_place();
   } else {
+    if (!fs::path(name_).has_filename()) refuse("names no file");
     // Renaming onto a symbolic link would replace the link, not the file that it names.
     std::error_code error;
     place_ = fs::absolute(name_, error);
@@ -150,7 +151,6 @@ void OutputFile::open_part() {
   const bool replaces = status_of(place_, status);
   if (replaces && access(place_.c_str(), W_OK) != 0) refuse(std::strerror(errno));
   check_was_not_read();
-  if (!place_.has_filename()) refuse("names no file");
   // A crash may have left one, and numbers of processes come again.
   const std::string stem = place_.string() + "." + std::to_string(getpid());
   for (int attempt = 0; attempt < 100; ++attempt) {

@@ -103,16 +103,16 @@ def test_what_was_left_ends_and_serves_again(apart):
     assert len(when_free(lambda: detector.find_pairs(apart[:10]))) == 0 and detector.stats.boxes == 10
 
 
-def crowded(count):
+def crowded(count, others=0):
     """A World of boxes in one place, and of others, before its first update."""
     world = boxstream.World()
     world.create(np.zeros((count, 6), np.float32))
-    world.create(grid(20_000))
+    world.create(grid(others))
     return world
 
 
 def test_few_boxes_with_many_pairs_are_left_while_they_go_on():
-    crowd, detector, world = np.zeros((8000, 6), np.float32), boxstream.Detector(), crowded(5500)
+    crowd, detector, world = np.zeros((8000, 6), np.float32), boxstream.Detector(), crowded(5500, 20_000)
     for call, use in [(lambda: detector.find_neighbours(crowd), lambda: detector.scratch_bytes),
                       (lambda: detector.find_pairs_in_sets(crowd, [0, 8000]), lambda: detector.scratch_bytes),
                       (world.update, lambda: len(world))]:
