@@ -141,13 +141,13 @@ TEST(Mesh, DistanceOfTwoSurfaces) {
   EXPECT_EQ(imports::read_surface(directory.file("b.glb")).vertices, imports::read_surface(coarse).vertices);
   const std::string ply = directory.read("a.ply");
   EXPECT_NE(ply.find("property uchar red"), std::string::npos);
-  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + a.vertices.size() * 27 + a.triangles.size() * 13);
+  EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + a.vertices.size() * 15 + a.triangles.size() * 13);
   // A vertex of the coarse sphere is a vertex of the fine one, so black; the farthest of the fine one is white.
   const std::string bytes = ply.substr(ply.find("end_header\n") + 11);
   std::size_t black = 0, white = 0;
   for (std::size_t i = 0; i < a.vertices.size(); ++i) {
-    black += bytes.substr(27 * i + 24, 3) == std::string(3, '\0');
-    white += bytes.substr(27 * i + 24, 3) == std::string(3, '\xff');
+    black += bytes.substr(15 * i + 12, 3) == std::string(3, '\0');
+    white += bytes.substr(15 * i + 12, 3) == std::string(3, '\xff');
   }
   EXPECT_GE(black, 2u);
   EXPECT_GE(white, 1u);

@@ -157,8 +157,9 @@ TEST(Outputs, NameTheEffectsThatAreBuilt) {
     words.insert(words.end(), options.begin(), options.end());
     const Outcome run = run_tool(words);
     EXPECT_EQ(run.exit_code, 0) << run.err;
+    const json report = json::parse(run.out);
     std::set<std::string> names;
-    for (const json& row : json::parse(run.out)["worlds"][0]["activity"]) names.insert(row["effect"]);
+    for (const json& row : report["worlds"][0]["activity"]) names.insert(row["effect"]);
     return names;
   };
   const auto called = built({}), all = built({"--all-effects"});
