@@ -108,7 +108,7 @@ std::size_t Surroundings::find_touching(const Row& row, const Bounds& box, const
   for (std::uint32_t i = row.held; i < row.near.size(); ++i) {
     const Bounds& beside = bounds_[row.near[i]];
     found_[count] = i;
-    count += (touch(box, beside) & !touch(apart, beside)) ? 1 : 0;
+    count += unsigned{touch(box, beside)} & unsigned{!touch(apart, beside)};
   }
   return count;
 }
