@@ -31,7 +31,6 @@ class EagerWorld {
         margin_(margin),
         are_refused_(start % 2 == 0),
         only_ghosts_move_(start % 4 >= 2),
-        are_quiet_(start % 3 != 1),
         random_(start) {
     boxstream::bullet::Options options;
     options.eager = eager;
@@ -194,7 +193,7 @@ class EagerWorld {
   const Eager eager_;
   const Motion motion_;
   const btScalar margin_;
-  const bool are_refused_, only_ghosts_move_, are_quiet_;
+  const bool are_refused_, only_ghosts_move_;
   Random random_;
   btGhostPairCallback ghost_callback_;
   FunctionFilter filter_{[this](btBroadphaseProxy* a, btBroadphaseProxy* b) { return is_accepted_by_filter(a, b); }};
