@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Prints a line for each seeded fault that does not go together with the sources; exit code 1 if there is one."""
+import re
 import sys
 
 sys.dont_write_bytecode = True
@@ -14,8 +15,9 @@ def check(fault, found_in):
     if not path.is_file():
         raise shadow.StaleFault(f"fault {fault['name']}: no file {fault['file']}")
     shadow.place_of(path.read_text(), fault)
-    if fault.get("as") == "statement" and fault["text"][-1] not in ";}":
-        raise shadow.StaleFault(f"fault {fault['name']}: no whole statement: {fault['text']!r}")
+    is_whole = re.search(r";$|^(if|for|while|switch|do|try|{).*}$", fault["text"], re.DOTALL) is not None
+    if is_whole != (fault.get("as") == "statement"):
+        raise shadow.StaleFault(f"fault {fault['name']}: said to be a statement or not: {fault['text']!r}")
     found_in.setdefault(path, []).append(fault)
     for part in fault["text"], fault["faulty"]:
         if any(part.count(begin) != part.count(end) for begin, end in ("()", "[]", "{}")):
