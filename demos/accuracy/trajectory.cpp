@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "formats/scene_model/expand.hpp"
+#include "simulation/effects/find.hpp"
 #include "simulation/run/simulation.hpp"
 
 namespace boxstream::accuracy {
@@ -18,7 +19,7 @@ namespace {
 /// By what the scene says of bodies, and not by what they are now: one that is frozen on its way is one of them still.
 bool is_dynamic(const scenes::Simulation& simulation, std::size_t object) {
   const std::vector<scenes::Body>& bodies = simulation.expanded().bodies;
-  return object < bodies.size() ? bodies[object].traits.type == scenes::BodyType::dynamic
+  return object < bodies.size() ? effects::is_dynamic(bodies[object])
                                 : !simulation.objects()[object]->isStaticOrKinematicObject();
 }
 

@@ -8,6 +8,7 @@
 
 #include "formats/scene_model/scene_error.hpp"
 #include "simulation/effects/effects.hpp"
+#include "simulation/effects/find.hpp"
 #include "simulation/engine/broadphases.hpp"
 #include "simulation/engine/convert.hpp"
 #include "simulation/engine/world_recipe.hpp"
@@ -299,7 +300,7 @@ std::uint64_t Simulation::outside() const {
   const std::vector<Body>& bodies = expanded().bodies;
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    count += bodies[i].traits.type == BodyType::dynamic &&
+    count += effects::is_dynamic(bodies[i]) &&
              !is_inside(impl_->scene.world.bounds, impl_->instance.described(i).getOrigin());
   return count;
 }

@@ -56,13 +56,14 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
                     [](char x, char y) { return x == y || (x >= 'A' && x <= 'Z' && x - 'A' + 'a' == y); });
 }
 
-struct TextSolids {
-  RawMesh mesh;
-  bool ended = true;  // the last of them has its last line
-};
+/// Whether a word, and the one before it, end a solid: some programs write "end solid", others write the name without a
+/// blank before it.
+bool ends_solid(std::string_view word, std::string_view before) {
+  return is_keyword(word.substr(0, 8), "endsolid") || (is_keyword(word, "solid") && is_keyword(before, "end"));
+}
 
-TextSolids read_text(std::string_view text) {
-  TextSolids solids;
+RawMesh read_text(std::string_view text) {
+  RawMesh mesh;
   TextScan scan(text);
   try {
     std::size_t corners = 0;
@@ -71,20 +72,15 @@ TextSolids read_text(std::string_view text) {
       TextScan words(scan.line());
       std::string_view before;
       for (std::string_view word = words.word(); !word.empty(); before = std::exchange(word, words.word())) {
-        // Some programs write "end solid", others write the name without a blank before it.
-        const bool after_end = is_keyword(before, "end"), ends_solid = is_keyword(word.substr(0, 8), "endsolid");
-        if (is_keyword(word, "solid") || ends_solid) {
-          solids.ended = ends_solid || after_end;
-          break;  // what follows is a name
-        }
+        if (is_keyword(word, "solid") || ends_solid(word, before)) break;  // what follows is a name
         if (is_keyword(word, "facet")) {
-          in_facet = !after_end;
+          in_facet = !is_keyword(before, "end");
         } else if (is_keyword(word, "vertex")) {
-          solids.mesh.vertices.push_back(coordinates_in(words));
+          mesh.vertices.push_back(coordinates_in(words));
           ++corners;
         } else if (is_keyword(word, "endloop")) {
           if (corners != 3) throw std::runtime_error("a facet of " + std::to_string(corners) + " vertices");
-          add_facet(solids.mesh);
+          add_facet(mesh);
           corners = 0;
           in_facet = false;
         }
@@ -94,14 +90,26 @@ TextSolids read_text(std::string_view text) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error("line " + std::to_string(scan.lines()) + ": " + error.what());
   }
-  return solids;
+  return mesh;
+}
+
+/// Whether the last line that is not empty ends a solid.
+bool has_end(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  TextScan words(text.substr(text.find_last_of("\r\n") + 1));
+  const std::string_view first = words.word();
+  return ends_solid(first, "") || ends_solid(words.word(), first);
+}
+
+bool begins_solid(std::string_view bytes) {
+  return is_keyword(TextScan(TextScan::without_mark(bytes)).word(), "solid");
 }
 
 /// Files of bytes may begin with "solid", too: their size tells, or a zero, which no text has.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= header && bytes.size() == header + facet * count_in(bytes)) return true;
   if (bytes.substr(0, header).find('\0') != bytes.npos) return true;
-  if (is_keyword(TextScan(TextScan::without_mark(bytes)).word(), "solid")) return false;
+  if (begins_solid(bytes)) return false;
   // Bytes of a count and of floats are hardly ever all letters.
   return !std::all_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
 }
@@ -110,7 +118,7 @@ bool is_binary(std::string_view bytes) {
 
 std::string unread_in_stl(std::string_view bytes) {
   if (!is_binary(bytes))
-    return read_text(TextScan::without_mark(bytes)).ended ? "" : "no endsolid after its last facet: it may be cut off";
+    return !begins_solid(bytes) || has_end(bytes) ? "" : "no endsolid after its last facet: it may be cut off";
   if (bytes.size() < header) return "";
   // Some programs leave the count as it was before they wrote the triangles.
   const std::size_t count = count_in(bytes), room = (bytes.size() - header) / facet;
@@ -121,8 +129,7 @@ std::string unread_in_stl(std::string_view bytes) {
 
 RawMesh read_stl(std::string_view bytes) {
   if (is_binary(bytes)) return read_binary(bytes);
-  const std::string_view text = TextScan::without_mark(bytes);
-  if (is_keyword(TextScan(text).word(), "solid")) return read_text(text).mesh;
+  if (begins_solid(bytes)) return read_text(TextScan::without_mark(bytes));
   throw std::runtime_error("a text that does not begin with \"solid\"");
 }
 
