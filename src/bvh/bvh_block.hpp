@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -9,100 +8,10 @@
 #include <type_traits>
 
 #include <boxstream/aabb.hpp>
-#include <boxstream/ray.hpp>
+#include <boxstream/detail/ray_slabs.hpp>
 #include <boxstream/span.hpp>
 
 namespace boxstream::detail {
-
-/// A ray as slabs see it: for each axis, t where the ray crosses a bound = (bound - reach - origin) * inverse.
-/// Every step is monotone in the bound, rounding included, so a box that contains another is never missed where the
-/// inner one is hit.
-template <class S>
-struct RaySlabs {
-  S origin[3];
-  S inverse[3];
-  S length;       // at most the largest finite number, so that a crossing at infinity is a miss
-  S reach_lo[3];  // the lower bound is taken at lo - reach_lo
-  S reach_hi[3];
-  bool parallel[3];  // infinite inverse, or one of zero: the axis only says inside or outside
-  bool is_long[3];   // distances that overflow may be within the length
-  bool hits_nothing;
-
-  explicit RaySlabs(const BasicRay<S>& ray) {
-    constexpr S finite = std::numeric_limits<S>::max();
-    length = ray.length < finite ? ray.length : finite;
-    hits_nothing = !(ray.length >= 0);
-    std::copy_n(ray.origin, 3, origin);
-    std::copy_n(ray.inverse_direction, 3, inverse);
-    std::copy_n(ray.extent_max, 3, reach_lo);
-    std::copy_n(ray.extent_min, 3, reach_hi);
-    for (int d = 0; d < 3; ++d) parallel[d] = is_long[d] = false;
-    if (!is_ordinary()) look_closer();
-  }
-
-  /// A box that meets each box that the ray meets by the tests below: all its points, and more than these round. May be
-  /// invalid, which says nothing.
-  BasicAabb<S> swept() const {
-    constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
-    const auto size = [](S x) { return x < 0 ? -x : x; };
-    BasicAabb<S> box;
-    for (int d = 0; d < 3; ++d) {
-      const S way = parallel[d] ? 0 : (length + std::numeric_limits<S>::min()) / inverse[d];
-      const S slack = rounding * (size(origin[d]) + size(way) + size(reach_lo[d]) + size(reach_hi[d]));
-      box.min[d] = origin[d] + (way < 0 ? way : 0) + reach_hi[d] - slack;
-      box.max[d] = origin[d] + (way < 0 ? 0 : way) + reach_lo[d] + slack;
-    }
-    return box;
-  }
-
-  /// True for a box that is swept, which seldom goes far.
-  bool has_extent() const {
-    bool is_point = true;
-    for (int d = 0; d < 3; ++d) is_point &= reach_lo[d] == reach_hi[d];
-    return !is_point;
-  }
-
-  /// t at a bound on an axis that is long: what overflows on the way is a quarter of itself there.
-  S far_crossing(S bound, S reach, unsigned d) const {
-    constexpr S most = std::numeric_limits<S>::max();
-    const S distance = bound - reach - origin[d];
-    const S quarter = bound / 4 - reach / 4 - origin[d] / 4;
-    return distance <= most && distance >= -most ? distance * inverse[d] : quarter * (4 * inverse[d]);
-  }
-
- private:
-  /// No axis is parallel or long, and all are numbers. Most rays are, and what makes others special takes longer to
-  /// tell than a few boxes to test.
-  bool is_ordinary() const {
-    constexpr S quarter = std::numeric_limits<S>::max() / 4, inf = std::numeric_limits<S>::infinity();
-    const auto size = [](S x) { return x < 0 ? -x : x; };
-    for (int d = 0; d < 3; ++d) {
-      const S turns = size(inverse[d]);
-      const bool is_slanted = turns > 0 && turns < inf;
-      // A product that overflows would raise a flag, and to take it back takes longer than all of this.
-      const bool is_near = size(origin[d]) <= quarter && length <= quarter * (turns < 1 ? turns : 1);
-      const bool is_number = reach_lo[d] == reach_lo[d] && reach_hi[d] == reach_hi[d];
-      if (!(is_slanted && is_near && is_number)) return false;
-    }
-    return true;
-  }
-
-  void look_closer() {
-    constexpr S finite = std::numeric_limits<S>::max();
-    constexpr S inf = std::numeric_limits<S>::infinity();
-    for (const S x : inverse) length = x == 0 && length > 0 ? 0 : length;
-    for (int d = 0; d < 3; ++d) {
-      parallel[d] = inverse[d] == inf || inverse[d] == -inf || inverse[d] == 0;  // the last: it goes nowhere
-      const S turns = inverse[d] < 0 ? -inverse[d] : inverse[d];
-      const bool is_point = reach_lo[d] == 0 && reach_hi[d] == 0;
-      is_long[d] = length > (is_point ? finite : finite / 4) * turns ||
-                   (!is_point && (origin[d] > finite / 4 || origin[d] < -finite / 4));
-      const bool is_number = origin[d] == origin[d] && inverse[d] == inverse[d] && reach_lo[d] == reach_lo[d] &&
-                             reach_hi[d] == reach_hi[d];
-      hits_nothing = hits_nothing || !is_number;
-    }
-  }
-};
 
 /// An eighth of the sum of a box's sides, each bound cut to finite numbers: differences neither overflow nor become
 /// NaN. A heuristic measure of size, for judging trees only.
@@ -205,7 +114,7 @@ struct alignas(64) BoxBlock {
       leave[i] = length;
       in[i] = lo[0][i] <= hi[0][i] ? bit(i) : 0;
     }
-    for (unsigned d = 0; d < 3; ++d) {
+    for (int d = 0; d < 3; ++d) {
       if (ray.parallel[d]) {
         for (unsigned i = 0; i < width; ++i) {
           const S below = lo[d][i] - ray.reach_lo[d] - ray.origin[d];

@@ -50,7 +50,7 @@ Broadphase::Impl::Impl(btOverlappingPairCache* borrowed, const Options& given)
       computes_pairs(!borrowed || keeps_pairs(*borrowed)),
       contact_reach(options.eager != Eager::none, options.margin),
       world(world_options(options)) {
-  default_rule = own != nullptr;
+  default_rule = is_rule_current = own != nullptr;
   if (borrowed) snapshot.capture(*borrowed);
 }
 
@@ -65,6 +65,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     proxy->position = std::uint32_t(live.size());
     if (live.size() == live.capacity()) live.reserve(std::max<std::size_t>(2 * live.size(), 8));
     live.push_back(proxy);
+    few_verdicts.note_created(*proxy);
     pending.reserve(live.size());
     pending.create(*proxy);
     note_pending();
@@ -84,6 +85,7 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
     snapshot.remove_all_of(proxy);
   }
+  few_verdicts.note_destroyed(proxy, live.size());
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
   live.pop_back();
@@ -112,6 +114,7 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
   } else {
     const Box box = box_in_world(proxy);
     pending.move(proxy, box);
+    few_verdicts.note_move(proxy);
     if (surroundings.are_kept()) surroundings.note_move(proxy, box);
     note_pending();
   }
@@ -134,6 +137,7 @@ void Broadphase::Impl::reset() {
   pending = PendingChanges();
   rooms.give_back();
   rooms_choice = {};
+  few_verdicts = {};
   surroundings = {};
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
@@ -148,7 +152,10 @@ void Broadphase::Impl::reset() {
   next_checked = checked_since_change = answered = 0;
   groups = 0;
   shared_mask = ~std::uint32_t{0};
-  may_refuse = has_new_filters = is_rule_current = is_quiet = all_have_begun = false;
+  is_rule_current = own != nullptr;
+  known_callback = nullptr;
+  known_filters_set = 0;
+  may_refuse = has_new_filters = is_quiet = all_have_begun = false;
 }
 
 void Broadphase::Impl::shrink_to_fit() {

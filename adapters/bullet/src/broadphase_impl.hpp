@@ -14,6 +14,7 @@
 
 #include "cache_snapshot.hpp"
 #include "contact_reach.hpp"
+#include "few_verdicts.hpp"
 #include "found.hpp"
 #include "pair_cache.hpp"
 #include "pending_changes.hpp"
@@ -97,6 +98,7 @@ struct Broadphase::Impl {
   WorldStats stats;
 
   ProxyRooms rooms;
+  FewVerdicts few_verdicts;
   Surroundings surroundings;
   mutable bool has_new_filters = false;
 
@@ -127,6 +129,7 @@ struct Broadphase::Impl {
     return default_rule ? proxy.filter() : Filter{all, all};
   }
   bool is_still_quiet();
+  bool are_few_still();
   bool is_rule_known() const;
   bool has_written_filter(std::size_t count);
   bool has_written_filter_in_quiet();

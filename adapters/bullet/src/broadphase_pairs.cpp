@@ -89,6 +89,21 @@ bool Broadphase::Impl::has_written_filter_in_quiet() {
   return has_written_filter(count);
 }
 
+/// True if few boxes have moved, or some have been created, so that nothing begins or ends.
+bool Broadphase::Impl::are_few_still() {
+  if (live.size() > FewVerdicts::most || !own || options.method == Method::hybrid) return false;
+  constexpr std::size_t most_pending = 4 * FewVerdicts::most;
+  const bool are_sound = own->is_settled() && is_rule_known() && stats.invalid == 0 && !has_new_filters &&
+                         !surroundings.are_kept() && pending.size() <= most_pending;
+  if (!are_sound) return false;
+  has_new_filters = may_refuse && has_written_filter_in_quiet();
+  if (has_new_filters || !few_verdicts.hold(live)) return false;
+  stats.proxies = live.size();
+  stats.moved = stats.begun = stats.ended = 0;
+  stats.search = {};
+  return true;
+}
+
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
   proxy.world_filter = filter;
   note_filter(filter_for_world(proxy));
@@ -100,6 +115,7 @@ void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
 /// it, changes that keep the number of pairs are not noticed.
 void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoroughly) {
   if (own && own->user_changes().empty()) return;
+  few_verdicts.forget();
   all_have_begun = false;
   surroundings.forget_held();
   if (own) return own->user_changes().flush([this](ProxyId a, ProxyId b) { world.release(a, b); });
@@ -111,7 +127,7 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy) return;
   // Before rooms, whose answer would be lost if a callback threw.
   if (own) own->flush_notifications(dispatcher);
-  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet()) return;
+  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet() || are_few_still()) return;
   or_fatal([&] { find_events(dispatcher); });
   own ? own->flush_notifications(dispatcher) : end_in_borrowed(dispatcher);
 }
@@ -121,7 +137,9 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
   struct CloseUnlessDone {
     Impl* impl;
     ~CloseUnlessDone() {
-      if (impl != nullptr) impl->close_rooms();
+      if (impl == nullptr) return;
+      impl->close_rooms();
+      impl->few_verdicts.forget();
     }
   } guard{this};
   bool are_told = false;
@@ -157,6 +175,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     all_have_begun = are_told || !has_pending.load(std::memory_order_relaxed);
     answered = 0;
     follow_rooms();
+    rooms.are_open() || !pending.empty() ? few_verdicts.forget() : few_verdicts.learn(live, own->store());
   }
   surroundings.note_batch();
   guard.impl = nullptr;

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/ray_slabs.hpp>
 
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
 #include "found.hpp"
+#include "found_few.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -32,19 +34,33 @@ void copy(const btVector3& from, btScalar (&to)[3]) {
   to[2] = from.z();
 }
 
+BasicRay<btScalar> ray_of(const btVector3& from, const btBroadphaseRayCallback& callback, const btVector3& extent_min,
+                          const btVector3& extent_max) {
+  BasicRay<btScalar> ray;
+  copy(from, ray.origin);
+  copy(callback.m_rayDirectionInverse, ray.inverse_direction);
+  copy(extent_min, ray.extent_min);
+  copy(extent_max, ray.extent_max);
+  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing. With a negative length
+  // Bullet's own still report boxes around the origin.
+  ray.length = at_least_zero(callback.m_lambda_max);
+  return ray;
+}
+
 }  // namespace
 
 void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphaseRayCallback& rayCallback,
                          const btVector3& aabbMin, const btVector3& aabbMax) {
-  BasicRay<btScalar> ray{};
-  copy(rayFrom, ray.origin);
-  copy(rayCallback.m_rayDirectionInverse, ray.inverse_direction);
-  copy(aabbMin, ray.extent_min);
-  copy(aabbMax, ray.extent_max);
-  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing. With a negative length
-  // Bullet's own still report boxes around the origin.
-  ray.length = at_least_zero(rayCallback.m_lambda_max);
-
+  if (FoundFew::can_look_along_ray(impl_->live)) {
+    FoundFew found(impl_->live, impl_->created);
+    {
+      const boxstream::detail::DefaultFloatEnvironment environment;
+      const boxstream::detail::RaySlabs<btScalar> ray(ray_of(rayFrom, rayCallback, aabbMin, aabbMax));
+      found.look([&](const auto& box) { return ray.meets(box); });
+    }
+    return found.report(rayCallback);
+  }
+  const BasicRay<btScalar> ray = ray_of(rayFrom, rayCallback, aabbMin, aabbMax);
   impl_->flush_pending();
   const Impl& impl = *impl_;
   Found found(impl.spare_lists);
@@ -58,8 +74,16 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
 }
 
 void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) {
-  impl_->flush_pending();
   const auto box = box_of(aabbMin, aabbMax);
+  if (FoundFew::can_look_at(impl_->live)) {
+    FoundFew found(impl_->live, impl_->created);
+    {
+      const boxstream::detail::DefaultFloatEnvironment environment;
+      if (is_valid(box)) found.look([&](const auto& other) { return overlaps(box, other); });
+    }
+    return found.report(callback);
+  }
+  impl_->flush_pending();
   const Impl& impl = *impl_;
   Found found(impl.spare_lists);
   or_fatal([&] {

@@ -23,6 +23,8 @@ class PendingChanges {
 
   bool empty() const { return moved_ == 0 && created_.empty(); }
   bool are_created() const { return !created_.empty(); }
+  /// With those of proxies that are gone.
+  std::size_t size() const { return moved_ + created_.size(); }
 
   /// Makes room for moves of `proxies` proxies, which cannot throw then.
   void reserve(std::size_t proxies) {
