@@ -9,6 +9,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/detail/export.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/known_first.hpp>
 #include <boxstream/detail/made_once.hpp>
 #include <boxstream/detail/movable.hpp>
 #include <boxstream/detail/object_table.hpp>
@@ -176,6 +177,8 @@ class BOXSTREAM_API BasicObjectSet {
   mutable detail::KnownBounds<S> known_;
   mutable detail::MovableAtomic<std::uint64_t> first_pair_{
       0};  // row and column in the upper and lower half; 0: unknown
+  detail::OwnNumber number_;
+  mutable detail::KnownFirst near_within_, near_other_;
 };
 
 using ObjectSet = BasicObjectSet<float>;
