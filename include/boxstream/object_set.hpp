@@ -144,6 +144,7 @@ class BOXSTREAM_API BasicObjectSet {
 
   /// Objects nearer to `box` than the limit: see World::query_nearest_box.
   void for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const;
+  /// Without a limit they begin with the nearest pair of a few, which is kept for later queries until a set changes.
   void for_each_near_pair(S limit, VisitNearPair visit) const;
   void for_each_near_pair(const BasicObjectSet& other, S limit, VisitNearPair visit) const;
 

@@ -67,7 +67,8 @@ void visit_near_few(const BasicAabb<S>& box, std::size_t count, BoxOf&& box_of, 
   visits.come_in();
   std::fill_n(lanes.keys, Lanes::width, Lanes::gone);
   for (unsigned i = 0; i < count; ++i)
-    if (const BasicAabb<S>& mine = box_of(i); has_order(mine)) lanes.keys[i] = Lanes::key_at(about_squared(mine, box), i);
+    if (const BasicAabb<S>& mine = box_of(i); has_order(mine))
+      lanes.keys[i] = Lanes::key_at(about_squared(mine, box), i);
   visits.visit(lanes);
 }
 

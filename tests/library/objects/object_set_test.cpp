@@ -466,13 +466,14 @@ TYPED_TEST(ObjectSets, TheFirstPairIsOfNow) {
       BasicObjectSet<S> moved;  // what is known goes where the set goes, or nowhere
       for (auto& object : objects) moved.add(object.get(), place(&object == objects ? 3 * a : 1e4), Filter{}, false);
       other = std::move(moved);
-      for (int time = 0; time < 2; ++time) {
+      // Of a list the first block is looked at, of a tree the way to what is near, within a set what is in one block.
+      const bool is_list = size < 24;
+      for (int time = 0; (!is_list || a < 8) && time < 2; ++time) {
         twins.set.for_each_near_pair(*other, inf<S>, stop);
         ASSERT_EQ(first, (std::vector<std::uint32_t>{a, 0})) << size << " " << turn;
       }
       twins.set.set_box(a, place(3 * b));
-      const bool is_looked_at = a / 8 == b / 8 && size < 24;
-      for (int time = 0; is_looked_at && time < 2; ++time) {
+      for (int time = 0; is_list && a / 8 == b / 8 && time < 2; ++time) {
         twins.set.for_each_near_pair(inf<S>, stop);
         ASSERT_EQ(first, (std::vector<std::uint32_t>{std::min(a, b), std::max(a, b)})) << size << " " << turn;
       }
