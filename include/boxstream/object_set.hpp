@@ -9,6 +9,7 @@
 #include <boxstream/aabb.hpp>
 #include <boxstream/detail/export.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/known_first.hpp>
 #include <boxstream/detail/made_once.hpp>
 #include <boxstream/detail/movable.hpp>
 #include <boxstream/detail/object_table.hpp>
@@ -143,6 +144,7 @@ class BOXSTREAM_API BasicObjectSet {
 
   /// Objects nearer to `box` than the limit: see World::query_nearest_box.
   void for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const;
+  /// Without a limit they begin with the nearest pair of a few, which is kept for later queries until a set changes.
   void for_each_near_pair(S limit, VisitNearPair visit) const;
   void for_each_near_pair(const BasicObjectSet& other, S limit, VisitNearPair visit) const;
 
@@ -176,6 +178,8 @@ class BOXSTREAM_API BasicObjectSet {
   mutable detail::KnownBounds<S> known_;
   mutable detail::MovableAtomic<std::uint64_t> first_pair_{
       0};  // row and column in the upper and lower half; 0: unknown
+  detail::OwnNumber number_;
+  mutable detail::KnownFirst near_within_, near_other_;
 };
 
 using ObjectSet = BasicObjectSet<float>;

@@ -238,6 +238,8 @@ struct Thresholds {
   /// Up to here all boxes are compared with all in blocks. No more than FewPairs::most.
   std::size_t few_objects = 128;
   std::size_t few_near_objects = 64;
+  /// What is looked at for a pair that a query of near ones begins with: blocks of one set, or those opened of two.
+  std::size_t first_near_blocks = 8, first_near_opened = 16;
   /// Up to here an index of objects is a list.
   std::size_t few_without_tree = 24;
   /// For larger sets, where a scan takes thousands of times as long as a query of the index, scans are given up sooner.
@@ -359,6 +361,8 @@ inline constexpr Thresholds small_thresholds = {
     .near_tests = 4,
     .few_objects = 8,
     .few_near_objects = 8,
+    .first_near_blocks = 2,
+    .first_near_opened = 2,
     .few_without_tree = 4,
     .small_set = 16,
     .most_gaps = 2,

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
+#include "base/has_order.hpp"
 #include "base/thresholds.hpp"
 #include "nearest/nearest_walk.hpp"
 
 namespace boxstream::detail {
-
-/// True if a box is valid; for the default environment, where comparing a NaN does not trap.
-template <class S>
-bool has_order(const BasicAabb<S>& box) {
-  return (box.min[0] <= box.max[0]) & (box.min[1] <= box.max[1]) & (box.min[2] <= box.max[2]);
-}
 
 /// The squared distance of two boxes, about: what `lanes_near` gives for lanes. In the default environment.
 template <class S>
@@ -40,6 +36,14 @@ class FewNear {
     places_[count_++] = {a, b};
   }
 
+  /// The first pair for which `is(places, squared)`, or null.
+  template <class Is>
+  const NearPlaces* find(Is&& is) const {
+    for (unsigned i = 0; i < count_; ++i)
+      if (is(places_[i], squared_[i])) return &places_[i];
+    return nullptr;
+  }
+
   template <class Offer>
   void visit(NearVisits<S, Offer>& visits) const {
     visits.visit((std::uint64_t{1} << count_) - 1, squared_, [&](unsigned i) { return places_[i]; });
@@ -61,10 +65,10 @@ void visit_near_few(const BasicAabb<S>& box, std::size_t count, BoxOf&& box_of, 
   Lanes lanes;
   lanes.block = 0;
   visits.come_in();
-  for (unsigned i = 0; i < Lanes::width; ++i) {
-    lanes.keys[i] = Lanes::gone;
-    if (i < count && has_order(box_of(i))) lanes.keys[i] = Lanes::key_at(about_squared(box_of(i), box), i);
-  }
+  std::fill_n(lanes.keys, Lanes::width, Lanes::gone);
+  for (unsigned i = 0; i < count; ++i)
+    if (const BasicAabb<S>& mine = box_of(i); has_order(mine))
+      lanes.keys[i] = Lanes::key_at(about_squared(mine, box), i);
   visits.visit(lanes);
 }
 

@@ -104,7 +104,9 @@ class NearLimit {
   void set(S limit) {
     const Bits bits = bits_of(limit);
     limit_ = bits <= infinite ? bits : 0;
-    if (limit_ < most) {
+    if (limit_ == 0) {
+      reach_ = inside_ = 0;
+    } else if (limit_ < most) {
       const Bits square = square_of(std::max(limit_, least));
       reach_ = square + slack;
       inside_ = limit_ > least ? square - slack : 0;

@@ -98,7 +98,9 @@ class NearVisits {
  public:
   /// Constructs the Offer in place from `of`: copying what was just written would stall.
   template <class... Of>
-  explicit NearVisits(S limit, Of&&... of) : limit_(limit), offer_(std::forward<Of>(of)...) {}
+  explicit NearVisits(S limit, Of&&... of) : NearVisits(NearLimit<S>(limit), std::forward<Of>(of)...) {}
+  template <class... Of>
+  explicit NearVisits(const NearLimit<S>& limit, Of&&... of) : limit_(limit), offer_(std::forward<Of>(of)...) {}
 
   /// For callers that set no limit before they have many: it falls in the end, but until then boxes come as they are
   /// found.
@@ -200,8 +202,9 @@ class NearVisits {
 template <class S, class Offer>
 class NearWalk {
  public:
-  NearWalk(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits)
-      : x_(x), y_(y), is_same_(x == y), visits_(visits), limit_(visits.limit()) {}
+  /// Opens `most` blocks at most.
+  NearWalk(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits, std::size_t most)
+      : x_(x), y_(y), is_same_(x == y), visits_(visits), limit_(visits.limit()), most_(most) {}
 
   /// Returns how many blocks were opened: tests check that there are few.
   std::size_t run() {
@@ -229,16 +232,17 @@ class NearWalk {
   // A step goes and has at most 64 children; if its sides are on different levels, eight.
   static constexpr unsigned most_steps = 64 * (Bvh<S>::most_levels + 1);
 
-  /// Once the limit is over, steps stay where they are, and there is no room for those of all tops.
+  /// Once the walk is over, steps stay where they are, and there is no room for those of all tops.
   void drain(Top a, Top b) {
-    if (limit_.is_over()) return;
+    if (is_over()) return;
     steps_[size_] = {0, a.at, b.at, a.level, b.level, static_cast<std::uint16_t>(size_)};
     ++size_;
-    while (size_ != 0 && !limit_.is_over()) {
+    while (size_ != 0 && !is_over()) {
       const Step step = take();
       if (limit_.reaches(step.squared)) open(step);
     }
   }
+  bool is_over() const { return limit_.is_over() || opened_ >= most_; }
 
   /// The nearest of the steps that were found last, while that pays; if it is out of reach, they all are. Most of them
   /// are by then, so they are not sorted before.
@@ -352,6 +356,7 @@ class NearWalk {
   const bool is_same_;
   NearVisits<S, Offer>& visits_;
   const NearLimit<S>& limit_;
+  const std::size_t most_;
   std::size_t opened_ = 0;
   bool first_is_open_ = false;  // the first leaf and itself
   unsigned size_ = 0;
@@ -359,10 +364,11 @@ class NearWalk {
 };
 
 /// Pairs of boxes of two sides that may be nearer than the limit, of one side each pair once. Returns how many blocks
-/// were opened for them.
+/// were opened for them, `most` at most.
 template <class S, class Offer>
-std::size_t visit_near(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits) {
-  return NearWalk<S, Offer>(x, y, visits).run();
+std::size_t visit_near(NearSide<S> x, NearSide<S> y, NearVisits<S, Offer>& visits,
+                       std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  return NearWalk<S, Offer>(x, y, visits, most).run();
 }
 
 /// Pairs of the boxes in block `a` of some and block `b` of others, or of the same.
@@ -382,6 +388,12 @@ void visit_near(const BoxBlock<S>* as, std::uint32_t a, const BoxBlock<S>* bs, s
   visits.visit(mask, squared, [=](unsigned bit) {
     return NearPlaces{width * a + bit / width, width * b + bit % width};
   });
+}
+
+/// Pairs within each of a few blocks.
+template <class S, class Offer>
+void visit_near_within(const BoxBlock<S>* blocks, std::size_t count, NearVisits<S, Offer>& visits) {
+  for (std::uint32_t i = 0; i < count && !visits.limit().is_over(); ++i) visit_near(blocks[i], i, visits);
 }
 
 /// Pairs of the boxes in a few blocks, likewise.

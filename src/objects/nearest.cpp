@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // BasicObjectSet: distances and rays.
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/has_order.hpp"
 #include "base/keys.hpp"
 #include "base/lazy_float_environment.hpp"
 #include "base/thresholds.hpp"
@@ -60,33 +64,145 @@ class BoxOffer : public NearOffer<S> {
   const Visit& visit_;
 };
 
-/// For queries about pairs.
+/// One set of a walk for pairs, and the places of what is walked over.
+template <class S>
+struct Side {
+  const detail::ObjectTable<S>& table;
+  const std::uint32_t* places;
+};
+
+/// The places of the valid boxes of a very small table, below `places`, in order. In the default environment.
+template <class S>
+class ValidPlaces {
+ public:
+  ValidPlaces(const detail::ObjectTable<S>& table, std::uint32_t places) {
+    std::size_t count = 0;
+    for (std::uint32_t place = 0; place < places; ++place) {
+      places_[count] = place;
+      count += detail::has_order(table.box(place));
+    }
+    count_ = count;
+  }
+
+  std::size_t count() const { return count_; }
+  std::uint32_t operator[](std::size_t i) const { return places_[i]; }
+  const std::uint32_t* data() const { return places_; }
+
+ private:
+  std::size_t count_;
+  std::uint32_t places_[detail::thresholds.near_tests + 1];
+};
+
+/// The places of two boxes of a walk, in order if they are of one table.
+template <class S>
+struct PairPlaces {
+  std::uint32_t a, b;
+
+  PairPlaces(const Side<S>& mine, std::uint32_t my_at, const Side<S>& theirs, std::uint32_t their_at)
+      : a(mine.places[my_at]), b(theirs.places[their_at]) {
+    if (&mine.table == &theirs.table && b < a) std::swap(a, b);
+  }
+};
+
+constexpr std::uint64_t no_pair = detail::KnownFirst::unknown - 1;  // as a number of one
+
+/// For queries about pairs. One pair, by its number, has been visited before.
 template <class S>
 class PairOffer : public NearOffer<S> {
  public:
   using Visit = typename BasicObjectSet<S>::VisitNearPair;
-  /// One set of a walk, and the places of what is walked over.
-  struct Side {
-    const detail::ObjectTable<S>& table;
-    const std::uint32_t* places;
-  };
 
-  PairOffer(const Side& mine, const Side& theirs, const Visit& visit) : mine_(mine), theirs_(theirs), visit_(visit) {}
+  PairOffer(const Side<S>& mine, const Side<S>& theirs, const Visit& visit, std::uint64_t visited = no_pair)
+      : mine_(mine), theirs_(theirs), visit_(visit), visited_(visited) {}
 
   void operator()(detail::NearLimit<S>& limit, std::uint32_t my_at, std::uint32_t their_at, S squared) {
-    std::uint32_t a = mine_.places[my_at], b = theirs_.places[their_at];
+    const auto [a, b] = PairPlaces<S>(mine_, my_at, theirs_, their_at);
     if (!accepts(mine_.table.filter(a), theirs_.table.filter(b)) ||
-        !this->is_nearer(limit, squared, mine_.table.box(a), theirs_.table.box(b)))
+        !this->is_nearer(limit, squared, mine_.table.box(a), theirs_.table.box(b)) ||
+        detail::number_of_pair(a, b) == visited_)
       return;
-    if (&mine_.table == &theirs_.table && b < a) std::swap(a, b);
     const S next = visit_(a, b);
     if (!limit.is(next)) limit.set(next);
   }
 
  private:
-  const Side& mine_;
-  const Side& theirs_;
+  const Side<S>& mine_;
+  const Side<S>& theirs_;
   const Visit& visit_;
+  const std::uint64_t visited_;
+};
+
+/// Keeps the nearest of the pairs that a walk finds, about. No code of a caller runs: which pair it is depends on boxes
+/// and filters alone. In the default floating-point environment.
+template <class S>
+class NearestOffer {
+ public:
+  NearestOffer(const Side<S>& mine, const Side<S>& theirs, std::uint64_t& nearest)
+      : mine_(mine), theirs_(theirs), nearest_(nearest) {}
+
+  void operator()(detail::NearLimit<S>& limit, std::uint32_t my_at, std::uint32_t their_at, S squared) {
+    const auto [a, b] = PairPlaces<S>(mine_, my_at, theirs_, their_at);
+    if (!limit.is_clearly_above(squared) || !accepts(mine_.table.filter(a), theirs_.table.filter(b))) return;
+    nearest_ = detail::number_of_pair(a, b);
+    limit.set(std::sqrt(squared));
+  }
+
+ private:
+  const Side<S>& mine_;
+  const Side<S>& theirs_;
+  std::uint64_t& nearest_;
+};
+
+/// The beginning of a query about pairs that has no limit yet: a pair that is the nearest of a few is visited, which
+/// sets a limit for all others, or ends the query. The visitor has no part in which one it is, so it is kept for the
+/// next query.
+template <class S>
+class Beginning {
+ public:
+  using Visit = typename BasicObjectSet<S>::VisitNearPair;
+
+  Beginning(detail::KnownFirst& known, const detail::KnownFirst::Of& of, S limit, const Visit& visit)
+      : known_(known), of_(of), limit_(limit), visit_(visit) {
+    first_ = limit_.is_finite() ? no_pair : known.find(of);
+    visit_first();
+  }
+
+  /// If it was not known: `walk(visits)` looks at a few pairs.
+  template <class Walk>
+  void find(const Side<S>& mine, const Side<S>& theirs, Walk&& walk) {
+    if (is_known()) return;
+    std::uint64_t nearest = no_pair;
+    {
+      const detail::DefaultFloatEnvironment environment;
+      detail::NearVisits<S, NearestOffer<S>> visits(limit_, mine, theirs, nearest);
+      walk(visits);
+    }
+    begin_with(nearest);
+  }
+  bool is_known() const { return first_ != detail::KnownFirst::unknown; }
+  void begin_with(std::uint64_t pair) {
+    known_.keep(of_, first_ = pair);
+    visit_first();
+  }
+
+  const detail::NearLimit<S>& limit() const { return limit_; }
+  bool is_all() const { return limit_.is_over(); }
+  bool has_visited() const { return first_ < no_pair; }
+  /// The number of the pair that was visited, if any.
+  std::uint64_t visited() const { return first_; }
+
+ private:
+  void visit_first() {
+    if (!has_visited()) return;
+    const S next = visit_(static_cast<std::uint32_t>(first_ >> 32), static_cast<std::uint32_t>(first_));
+    if (!limit_.is(next)) limit_.set(next);
+  }
+
+  detail::KnownFirst& known_;
+  const detail::KnownFirst::Of of_;
+  detail::NearLimit<S> limit_;
+  const Visit& visit_;
+  std::uint64_t first_;
 };
 
 }  // namespace
@@ -110,20 +226,31 @@ void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, Vi
 /// All pairs of the set, or with all of another one.
 template <class S>
 void BasicObjectSet<S>::visit_near_few(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
-  constexpr std::size_t most = detail::thresholds.near_tests;
   const bool is_same = &other == this;
-  const detail::LivePlaces<S, most> mine(table_), theirs(other.table_);
-  const typename PairOffer<S>::Side my_side{table_, mine.data()}, their_side{other.table_, theirs.data()};
-  detail::NearVisits<S, PairOffer<S>> visits(limit, my_side, their_side, visit);
-  visits.come_in();
+  Beginning<S> begin(is_same ? near_within_ : near_other_,
+                     {other.number_, table_.last_change(), other.table_.last_change()}, limit, visit);
+  const bool is_one_pair = table_.size() + other.table_.size() == (is_same ? 4 : 2);
+  if (begin.is_all() || (is_one_pair && begin.has_visited())) return;
+  detail::LazyFloatEnvironment environment;
+  const ValidPlaces<S> mine(table_, table_.places()), others(other.table_, is_same ? 0 : other.table_.places());
+  const ValidPlaces<S>& theirs = is_same ? mine : others;
   detail::FewNear<S> pairs;
-  for (std::uint32_t a = 0; a < mine.count(); ++a) {
-    const Box& box = table_.box(mine[a]);
-    if (!detail::has_order(box)) continue;
+  for (std::uint32_t a = 0; a < mine.count(); ++a)
     for (std::uint32_t b = is_same ? a + 1 : 0; b < theirs.count(); ++b)
-      if (const Box& other_box = other.table_.box(theirs[b]); detail::has_order(other_box))
-        pairs.add(a, box, b, other_box);
+      pairs.add(a, table_.box(mine[a]), b, other.table_.box(theirs[b]));
+  // The nearest comes first anyway. One that touches often ends the query.
+  const auto is_first = [&](const detail::NearPlaces& at, S squared) {
+    return (is_one_pair ? begin.limit().is_clearly_above(squared) : squared == 0) &&
+           accepts(table_.filter(mine[at.a]), other.table_.filter(theirs[at.b]));
+  };
+  const detail::NearPlaces* const at = begin.is_known() ? nullptr : pairs.find(is_first);
+  environment.go_out();
+  if (at != nullptr) {
+    begin.begin_with(detail::number_of_pair(mine[at->a], theirs[at->b]));
+    if (begin.is_all() || is_one_pair) return;
   }
+  const Side<S> my_side{table_, mine.data()}, their_side{other.table_, theirs.data()};
+  detail::NearVisits<S, PairOffer<S>> visits(begin.limit(), my_side, their_side, visit, begin.visited());
   pairs.visit(visits);
 }
 
@@ -132,35 +259,64 @@ void BasicObjectSet<S>::for_each_near_pair(S limit, VisitNearPair visit) const {
   if (table_.size() < 2) return;
   if (table_.size() * (table_.size() - 1) / 2 <= detail::thresholds.near_tests)
     return visit_near_few(*this, limit, visit);
-  constexpr std::size_t few = detail::thresholds.few_near_objects;
+  Beginning<S> begin(near_within_, {number_, table_.last_change(), table_.last_change()}, limit, visit);
+  if (begin.is_all()) return;
+  constexpr std::size_t few = detail::thresholds.few_near_objects, looked_at = detail::thresholds.first_near_blocks;
   // To compare all with all in blocks takes an eighth of a scan for each.
-  if (table_.size() > few || !scans_next(table_.size() * table_.size() / detail::BoxBlock<S>::width))
-    return for_each_near_pair(*this, limit, visit);
-  const detail::LivePlaces<S, few> places(table_);
-  const typename PairOffer<S>::Side side{table_, places.data()};
-  detail::NearVisits<S, PairOffer<S>> visits(limit, side, side, visit);
-  const detail::FewBlocks<S, few> blocks(places.count(),
-                                         [&](std::size_t i) -> const Box& { return table_.box(places[i]); });
-  detail::visit_near(blocks.data(), blocks.count(), visits);
+  if (table_.size() <= few && scans_next(table_.size() * table_.size() / detail::BoxBlock<S>::width)) {
+    const detail::LivePlaces<S, few> places(table_);
+    const Side<S> side{table_, places.data()};
+    detail::LazyFloatEnvironment environment;
+    const detail::FewBlocks<S, few> blocks(places.count(),
+                                           [&](std::size_t i) -> const Box& { return table_.box(places[i]); });
+    environment.go_out();
+    begin.find(side, side, [&](auto& visits) {
+      detail::visit_near_within(blocks.data(), std::min(blocks.count(), looked_at), visits);
+    });
+    if (begin.is_all()) return;
+    detail::NearVisits<S, PairOffer<S>> visits(begin.limit(), side, side, visit, begin.visited());
+    detail::visit_near(blocks.data(), blocks.count(), visits);
+    return;
+  }
+  const detail::Bvh<S>& bvh = fresh_index();
+  const Side<S> side{table_, bvh.slots()};
+  // What was put into one block is likely to be near.
+  begin.find(side, side, [&](auto& visits) {
+    detail::visit_near_within(bvh.leaves(), std::min(bvh.leaf_blocks(), looked_at), visits);
+  });
+  if (begin.is_all()) return;
+  detail::NearVisits<S, PairOffer<S>> visits(begin.limit(), side, side, visit, begin.visited());
+  if (bvh.levels() == 0)
+    detail::visit_near(bvh.leaves(), bvh.leaf_blocks(), visits);
+  else
+    detail::visit_near(detail::NearSide<S>(bvh), detail::NearSide<S>(bvh), visits);
 }
 
 template <class S>
 void BasicObjectSet<S>::for_each_near_pair(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
+  if (&other == this) return for_each_near_pair(limit, visit);
   if (table_.size() == 0 || other.table_.size() == 0) return;
-  if (&other != this && table_.size() * other.table_.size() <= detail::thresholds.near_tests)
-    return visit_near_few(other, limit, visit);
+  if (table_.size() * other.table_.size() <= detail::thresholds.near_tests) return visit_near_few(other, limit, visit);
+  Beginning<S> begin(near_other_, {other.number_, table_.last_change(), other.table_.last_change()}, limit, visit);
+  if (begin.is_all()) return;
   const detail::Bvh<S>& mine = fresh_index();
   const detail::Bvh<S>& theirs = other.fresh_index();
-  const typename PairOffer<S>::Side my_side{table_, mine.slots()}, their_side{other.table_, theirs.slots()};
-  detail::NearVisits<S, PairOffer<S>> visits(limit, my_side, their_side, visit);
-  if (mine.levels() == 0 && theirs.levels() == 0) {
-    if (&mine == &theirs)
-      detail::visit_near(mine.leaves(), mine.leaf_blocks(), visits);
+  const Side<S> my_side{table_, mine.slots()}, their_side{other.table_, theirs.slots()};
+  const detail::NearSide<S> x(mine), y(theirs);
+  const bool are_lists = mine.levels() == 0 && theirs.levels() == 0;
+  begin.find(my_side, their_side, [&](auto& visits) {
+    const auto one = [](const detail::Bvh<S>& list) { return std::min<std::size_t>(list.leaf_blocks(), 1); };
+    if (are_lists)
+      detail::visit_near(mine.leaves(), one(mine), theirs.leaves(), one(theirs), visits);
     else
-      detail::visit_near(mine.leaves(), mine.leaf_blocks(), theirs.leaves(), theirs.leaf_blocks(), visits);
-    return;
-  }
-  detail::visit_near(detail::NearSide<S>(mine), detail::NearSide<S>(theirs), visits);
+      detail::visit_near(x, y, visits, detail::thresholds.first_near_opened);
+  });
+  if (begin.is_all()) return;
+  detail::NearVisits<S, PairOffer<S>> visits(begin.limit(), my_side, their_side, visit, begin.visited());
+  if (are_lists)
+    detail::visit_near(mine.leaves(), mine.leaf_blocks(), theirs.leaves(), theirs.leaf_blocks(), visits);
+  else
+    detail::visit_near(x, y, visits);
 }
 
 template <class S>

@@ -10,6 +10,7 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
+#include "base/has_order.hpp"
 #include "base/thresholds.hpp"
 #include "bvh/overlap_walk.hpp"
 #include "objects/impl.hpp"
@@ -117,10 +118,10 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
   const detail::FilterTest filter_test(filter, table_.special_filters());
   // Hits may be kept for a query in another environment.
   detail::DefaultFloatEnvironment environment;
-  if (!is_valid(box)) return true;
+  if (!detail::has_order(box)) return true;
   for (Place place = first; place < table_.places(); ++place)
     // An unbounded box seems to touch inverted boxes, gaps included.
-    if (touch(boxes[place], box) && is_valid(boxes[place]) && filter_test(place) &&
+    if (touch(boxes[place], box) && detail::has_order(boxes[place]) && filter_test(place) &&
         !environment.outside([&] { return visit(place); }))
       return false;
   return true;
@@ -128,8 +129,10 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
 
 template <class S>
 void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
-  if (table_.size() == 0 || !detail::has_valid_keys(box)) return;
-  if (table_.size() <= detail::thresholds.scanned_objects || scans_next(table_.places())) {
+  if (table_.size() == 0) return;
+  const bool are_few = table_.size() <= detail::thresholds.scanned_objects;
+  if (!are_few && !detail::has_valid_keys(box)) return;
+  if (are_few || scans_next(table_.places())) {
     scan(0, box, filter, visit);
     return;
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <tuple>
@@ -149,6 +150,59 @@ void expect_same_distances(const Twins<S>& twins, const Twins<S>& other) {
   }
 }
 
+/// Without a limit all pairs come, each once. They begin as the same query without an end does.
+template <class S>
+void expect_same_without_limit(const Twins<S>& twins, const Twins<S>& other) {
+  using Pairs = typename Twins<S>::Pairs;
+  const auto visit_all = [&](auto&& visit) {
+    &other == &twins ? twins.set.for_each_near_pair(inf<S>, visit)
+                     : twins.set.for_each_near_pair(other.set, inf<S>, visit);
+  };
+  Pairs first_of_all;
+  for (int time = 0; time < 2; ++time) {
+    Pairs all, until_first;
+    visit_all([&](std::uint32_t a, std::uint32_t b) {
+      all.push_back({a, b});
+      return inf<S>;
+    });
+    ASSERT_EQ(sorted(all), twins.all_near_pairs(other, inf<S>));
+    visit_all([&](std::uint32_t a, std::uint32_t b) {
+      until_first.push_back({a, b});
+      return S(0);
+    });
+    ASSERT_EQ(until_first.size(), std::min<std::size_t>(all.size(), 1));
+    // Of very few it is known from the beginning only if it touches, or there is no other.
+    if (all.empty() || twins.table().size() * other.table().size() <= 16) continue;
+    ASSERT_EQ(all[0], until_first[0]);
+    if (first_of_all.empty()) first_of_all.push_back(all[0]);
+    ASSERT_EQ(all[0], first_of_all[0]);
+  }
+}
+
+/// By a limit that shrinks the least distance of a pair is found.
+template <class S>
+void expect_least_distance(const Twins<S>& twins, const Twins<S>& other) {
+  S least = inf<S>, expected = inf<S>;
+  for (const auto& [a, b] : twins.all_near_pairs(other, inf<S>))
+    expected = std::min(expected, detail::distance_below(twins.table().box(a), other.table().box(b)));
+  const auto nearer = [&](std::uint32_t a, std::uint32_t b) {
+    least = std::min(least, detail::distance_below(twins.table().box(a), other.table().box(b)));
+    return least;
+  };
+  &other == &twins ? twins.set.for_each_near_pair(inf<S>, nearer)
+                   : twins.set.for_each_near_pair(other.set, inf<S>, nearer);
+  ASSERT_EQ(least, expected);
+}
+
+template <class S>
+void expect_same_beginnings(const Twins<S>& twins, const Twins<S>& other) {
+  for (const Twins<S>* of : {&twins, &other}) {
+    ASSERT_NO_FATAL_FAILURE(expect_least_distance(twins, *of));
+    ASSERT_NO_FATAL_FAILURE(expect_same_without_limit(twins, *of));
+    ASSERT_NO_FATAL_FAILURE(expect_least_distance(twins, *of));
+  }
+}
+
 /// By a limit that shrinks the least distance is found.
 template <class S>
 void expect_least_distance(const Twins<S>& twins, const BasicAabb<S>& box, Filter filter) {
@@ -207,7 +261,10 @@ TYPED_TEST(ObjectSets, AnyHistoryIsWhatBruteForceSays) {
       for (int i = 0; i < 20; ++i) expect_same_overlaps(twins, box(), filters[i % 3]);
       expect_same_pairs(twins, other);
       expect_same_pairs(other, twins);
-      if (size < 200 || step % 8 == 0) expect_same_distances(twins, other);
+      if (size < 200 || step % 8 == 0) {
+        expect_same_distances(twins, other);
+        ASSERT_NO_FATAL_FAILURE(expect_same_beginnings(twins, other));
+      }
       for (int i = 0; i < 5; ++i) expect_least_distance(twins, box(), filters[i % 3]);
     }
   }
@@ -238,6 +295,8 @@ TYPED_TEST(ObjectSets, AFewThatComeAndGo) {
       expect_same_pairs(other, twins);
       expect_same_distances(twins, other);
       expect_same_distances(other, twins);
+      ASSERT_NO_FATAL_FAILURE(expect_same_beginnings(twins, other));
+      ASSERT_NO_FATAL_FAILURE(expect_same_beginnings(other, twins));
       for (const Filter filter : filters) expect_least_distance(twins, box(), filter);
     }
   }
@@ -382,6 +441,44 @@ TYPED_TEST(ObjectSets, TheNearestPairIsAmongTheFirst) {
     EXPECT_TRUE(visits.limit().is(least)) << many;
     EXPECT_LE(offers, 12u) << many;
     EXPECT_LE(opened, 150u) << many;
+  }
+}
+
+/// The pair that a query begins with is one of boxes as they are now: of the sets that it is about, and of no others
+/// that have been where they are.
+TYPED_TEST(ObjectSets, TheFirstPairIsOfNow) {
+  using S = TypeParam;
+  const auto place = [](double x) { return BasicAabb<S>{{S(x), 0, 0}, {S(x + 1), 1, 1}}; };
+  for (const std::uint32_t size : {2u, 3u, 20u, 200u}) {
+    Twins<S> twins;
+    for (std::uint32_t i = 0; i < size; ++i) twins.add(place(3 * i));
+    std::unique_ptr<int> objects[2];
+    for (auto& object : objects) object = std::make_unique<int>(0);
+    std::optional<BasicObjectSet<S>> other;
+    for (std::uint32_t turn = 0; turn < 12; ++turn) {
+      const std::uint32_t a = turn % size, b = (turn + 1) % size;
+      std::vector<std::uint32_t> first;
+      const auto stop = [&](std::uint32_t x, std::uint32_t y) {
+        first = {x, y};
+        return S(0);
+      };
+      if (turn % 2 == 0) other.emplace();
+      BasicObjectSet<S> moved;  // what is known goes where the set goes, or nowhere
+      for (auto& object : objects) moved.add(object.get(), place(&object == objects ? 3 * a : 1e4), Filter{}, false);
+      other = std::move(moved);
+      // Of a list the first block is looked at, of a tree the way to what is near, within a set what is in one block.
+      const bool is_list = size < 24;
+      for (int time = 0; (!is_list || a < 8) && time < 2; ++time) {
+        twins.set.for_each_near_pair(*other, inf<S>, stop);
+        ASSERT_EQ(first, (std::vector<std::uint32_t>{a, 0})) << size << " " << turn;
+      }
+      twins.set.set_box(a, place(3 * b));
+      for (int time = 0; is_list && a / 8 == b / 8 && time < 2; ++time) {
+        twins.set.for_each_near_pair(inf<S>, stop);
+        ASSERT_EQ(first, (std::vector<std::uint32_t>{std::min(a, b), std::max(a, b)})) << size << " " << turn;
+      }
+      twins.set.set_box(a, place(3 * a));
+    }
   }
 }
 
