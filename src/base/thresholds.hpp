@@ -15,9 +15,8 @@ struct Thresholds {
   /// Up to this number of boxes of one set, comparing all with all takes less time than what saves most of the
   /// comparisons.
   std::size_t most_small = 384;
-  /// Of more than so many it is tried whether bytes part them, on one in eight of the comparisons of a few blocks: up
-  /// to so many boxes that seem to overlap and do not.
-  std::size_t surely_small = 160, most_seeming = 64;
+  /// One of them in so many tells whether bytes part them, and so many that seem to overlap say nothing.
+  std::size_t others_of_try = 16, seeming_by_chance = 4;
   /// More of them are compared by bytes first.
   std::size_t most_at_once = 64;
   /// Sets of up to this number of boxes are compared several at once. Not more, for their pairs are bits of a word.
@@ -256,7 +255,8 @@ struct Thresholds {
 /// boxes, and have them and the index rebuilt.
 inline constexpr Thresholds small_thresholds = {
     .most_small = 12,
-    .surely_small = 8,
+    .others_of_try = 2,
+    .seeming_by_chance = 1,
     .most_at_once = 6,
     .most_tiny = 8,
     .fewest = 2,

@@ -92,7 +92,9 @@ struct Detector::Impl {
     set_method(input);
     Stats stats;
     stats.boxes = input.boxes();
-    if (!detail::is_small(input) || !detail::search_small(input, sink, stats))
+    if (detail::is_small(input))
+      detail::search_small(input, sink, stats);
+    else
       search_with<S>(most_held, sink_thread, stats.boxes, stats.boxes,
                      [&](const Parallel* parallel) { detail::search_large(input, arena, parallel, sink, stats); });
     return stats;
@@ -258,17 +260,17 @@ void Detector::shrink_to_fit() noexcept {
 
 std::vector<Pair> find_pairs(BoxSpan boxes, const PairRules& rules) {
   std::vector<Pair> pairs;
-  // Without a Detector, which takes longer to make than few boxes to compare.
-  bool is_done = false;
-  if (boxes.size() <= detail::thresholds.most_small) {
-    detail::Arena copies;
-    detail::with_input({boxes, boxes, true}, rules, copies, [&](const auto& input) {
-      Stats stats;
-      is_done = detail::search_small(input, append_to(pairs), stats);
-      return stats;
-    });
+  if (boxes.size() > detail::thresholds.most_small) {
+    Detector().find_pairs(boxes, pairs, rules);
+    return pairs;
   }
-  if (!is_done) Detector().find_pairs(boxes, pairs, rules);
+  // Without a Detector, which takes longer to make than few boxes to compare.
+  detail::Arena copies;
+  detail::with_input({boxes, boxes, true}, rules, copies, [&](const auto& input) {
+    Stats stats;
+    detail::search_small(input, append_to(pairs), stats);
+    return stats;
+  });
   return pairs;
 }
 

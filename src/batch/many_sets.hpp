@@ -86,7 +86,10 @@ bool search_in_turn(const ManyInputs<S>& inputs, std::size_t first, std::size_t 
                     Stats& stats) {
   DeliveringBuffer<S> buffer(inputs.all, sink);
   const auto search = [&](const Input<S>& input) {
-    if (is_small(input) && search_small(input, buffer, stats)) return !buffer.has_stopped();
+    if (is_small(input)) {
+      search_small(input, buffer, stats);
+      return !buffer.has_stopped();
+    }
     return buffer.flush() && search_large(input, arena, nullptr, sink, stats);
   };
   bool go_on = true;

@@ -26,27 +26,24 @@ bool is_small(const Input<S>& input) {
 }
 
 /// Few boxes, all with all: nothing is set up before. Pairs have the caller's indices; the buffer may be that of many
-/// searches. False if they have to be searched like more of them.
+/// searches.
 template <class S>
-bool search_small(const Input<S>& input, PairBuffer& buffer, Stats& stats) {
+void search_small(const Input<S>& input, PairBuffer& buffer, Stats& stats) {
   const std::size_t size = input.a.size();
   const std::size_t valid = compare_small(input.a.data(), size, input.faces, input.first_a, buffer);
-  if (valid == not_small) return false;
   stats.records += valid;
   stats.invalid += size - valid;
   stats.cells += valid < 2 ? 0 : 1;
   stats.tests += size * (size - 1) / 2;
-  return true;
 }
 
 /// One that is alone.
 template <class S>
-bool search_small(const Input<S>& input, PairSink sink, Stats& stats) {
+void search_small(const Input<S>& input, PairSink sink, Stats& stats) {
   DeliveringBuffer<S> buffer(input, sink);
-  if (!search_small(input, buffer, stats)) return false;
+  search_small(input, buffer, stats);
   buffer.flush();
   stats.pairs += buffer.delivered();
-  return true;
 }
 
 /// In the arena, for it is large; null where filters are none, or save nothing.

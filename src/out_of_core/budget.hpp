@@ -41,7 +41,7 @@ struct Budget {
   static constexpr std::uint64_t most_sampled = 1 << 16, most_pairs = 1024;
   static constexpr std::uint64_t copies_of_sample = 4;  // what Regions makes of it is in the parts of its leaves
   // Of a new Detector: 200 bytes a box for most sets; 300 for long bars, which it copies to many cells. It has none for
-  // sets up to thresholds.surely_small.
+  // sets up to thresholds.most_small.
   static constexpr std::uint64_t scratch = 64 << 10, scratch_of_box = 320;
   // Of a Detector's tasks, 8 bytes a box included.
   static constexpr std::uint64_t held_back = 18 << 20;
@@ -50,7 +50,7 @@ struct Budget {
   static std::size_t boxes_in(std::uint64_t memory) {
     constexpr std::uint64_t of_box = sizeof(NumberedBox<S>) + 1 + scratch_of_box;
     const std::uint64_t boxes = memory < scratch ? 0 : (memory - scratch) / of_box;
-    return static_cast<std::size_t>(std::clamp<std::uint64_t>(boxes, thresholds.surely_small, UINT32_MAX - 1));
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(boxes, thresholds.most_small, UINT32_MAX - 1));
   }
 };
 

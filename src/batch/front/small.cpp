@@ -88,8 +88,8 @@ HWY_INLINE std::size_t compare_set(const BasicAabb<S>* boxes, std::size_t size, 
         static_cast<std::size_t>(std::popcount(load_some(boxes + at, std::min(step, size - at), at, faces, columns)));
   if (size <= thresholds.most_at_once)
     compare_all(columns, size, first_id, pairs);
-  else if (!compare_by_bytes(columns, size, first_id, pairs))
-    return not_small;
+  else
+    compare_by_bytes(columns, size, first_id, pairs);
   return valid;
 }
 

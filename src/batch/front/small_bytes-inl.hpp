@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A set of few boxes compared all with all: by bytes first, and then by keys what may overlap. Bytes are a monotone map
-// of keys, so that boxes whose bytes are apart are apart.
+// A set of few boxes compared all with all: by bytes first, and then by keys what may overlap; or by keys alone, where
+// bytes do not part them. Bytes are a monotone map of keys, so that boxes whose bytes are apart are apart.
 
 #if defined(BOXSTREAM_SMALL_BYTES_INL_HPP_) == defined(HWY_TARGET_TOGGLE)  // once per SIMD target
 #ifdef BOXSTREAM_SMALL_BYTES_INL_HPP_
@@ -216,7 +216,21 @@ inline std::uint32_t find_near(const ByteColumns& boxes, std::size_t at, std::si
 
 #endif
 
-/// By keys.
+/// Of the block at `at`, a bit for each box that overlaps box `other`, by keys.
+template <class Key>
+HWY_INLINE std::uint32_t find_overlapping(const SmallColumns<Key>& columns, std::size_t at, std::size_t other) {
+  const Narrow<Key> d;
+  Bounds<Narrow<Key> > one, many;
+  one.repeat(columns, other);
+  std::uint32_t apart = 0;
+  for (std::size_t k = 0; k < byte_block; k += hn::MaxLanes(d)) {
+    many.load(columns, at + k);
+    apart |= bits_of(d, one.disjoint(many)) << k;
+  }
+  return ~apart;
+}
+
+/// The same of two boxes.
 template <class Key>
 HWY_INLINE bool overlap(const SmallColumns<Key>& columns, std::size_t i, std::size_t j) {
   bool apart = false;
@@ -236,16 +250,37 @@ HWY_INLINE Near* note(Near* end, std::size_t other, std::uint32_t boxes) {
   return end + (boxes != 0 ? 1 : 0);
 }
 
-/// Emits those that overlap of the block at `at`.
+/// Bytes say which boxes may overlap, and keys which of these do.
 template <class Key>
-HWY_INLINE bool emit_near(const SmallColumns<Key>& columns, const Near* each, const Near* end, std::size_t at,
-                          std::uint32_t first_id, PairBuffer& pairs) {
+struct ByBytes {
+  const SmallColumns<Key>& columns;
+  const ByteColumns& bytes;
+
+  HWY_INLINE std::uint32_t find(std::size_t at, std::size_t other) const { return find_near(bytes, at, other); }
+  HWY_INLINE bool confirm(std::size_t box, std::size_t other) const { return overlap(columns, box, other); }
+};
+
+/// Keys alone.
+template <class Key>
+struct ByKeys {
+  const SmallColumns<Key>& columns;
+
+  HWY_INLINE std::uint32_t find(std::size_t at, std::size_t other) const {
+    return find_overlapping(columns, at, other);
+  }
+  HWY_INLINE bool confirm(std::size_t, std::size_t) const { return true; }
+};
+
+/// Emits those that overlap of the block at `at`.
+template <class Look>
+HWY_INLINE bool emit_near(const Look& look, const Near* each, const Near* end, std::size_t at, std::uint32_t first_id,
+                          PairBuffer& pairs) {
   for (; each != end; ++each) {
     Pair* out = pairs.end();
     for (std::uint32_t left = each->boxes; left != 0; left &= left - 1) {
       const auto box = static_cast<std::uint32_t>(at) + static_cast<std::uint32_t>(std::countr_zero(left));
       *out = {first_id + box, first_id + each->other};
-      out += overlap(columns, box, each->other) ? 1 : 0;
+      out += look.confirm(box, each->other) ? 1 : 0;
     }
     pairs.set_end(out);
     if (HWY_UNLIKELY(out >= pairs.limit()) && !pairs.flush()) return false;
@@ -255,50 +290,60 @@ HWY_INLINE bool emit_near(const SmallColumns<Key>& columns, const Near* each, co
 
 /// Emits the pairs of the boxes of two blocks at `at` with all behind each. Both are compared with a box before the
 /// next, which is read once then, and the pairs of the one come before those of the other.
-template <class Key>
-HWY_INLINE bool compare_two_blocks(const SmallColumns<Key>& columns, const ByteColumns& bytes, std::size_t at,
-                                   std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
+template <class Look>
+HWY_INLINE bool compare_two_blocks(const Look& look, std::size_t at, std::size_t size, std::uint32_t first_id,
+                                   PairBuffer& pairs) {
   const std::size_t second = std::min(at + byte_block, size), behind = std::min(second + byte_block, size);
   Near of_first[small_room], of_second[small_room], *end_first = of_first, *end_second = of_second;
   const auto below = [](std::size_t boxes) { return (std::uint32_t{1} << boxes) - 1; };
   for (std::size_t other = at; other < second; ++other)
-    end_first = note(end_first, other, find_near(bytes, at, other) & below(other - at));
+    end_first = note(end_first, other, look.find(at, other) & below(other - at));
   for (std::size_t other = second; other < behind; ++other) {
-    end_first = note(end_first, other, find_near(bytes, at, other));
-    end_second = note(end_second, other, find_near(bytes, second, other) & below(other - second));
+    end_first = note(end_first, other, look.find(at, other));
+    end_second = note(end_second, other, look.find(second, other) & below(other - second));
   }
   for (std::size_t other = behind; other < size; ++other) {
-    end_first = note(end_first, other, find_near(bytes, at, other));
-    end_second = note(end_second, other, find_near(bytes, second, other));
+    const std::uint32_t near_first = look.find(at, other), near_second = look.find(second, other);
+    end_first = note(end_first, other, near_first);
+    end_second = note(end_second, other, near_second);
   }
-  return emit_near(columns, of_first, end_first, at, first_id, pairs) &&
-         emit_near(columns, of_second, end_second, second, first_id, pairs);
+  return emit_near(look, of_first, end_first, at, first_id, pairs) &&
+         emit_near(look, of_second, end_second, second, first_id, pairs);
 }
 
-/// Whether few boxes seem to overlap and do not, by a part of the comparisons. Crowds that are small beside the whole
-/// share a byte.
+template <class Look>
+HWY_INLINE void compare_blocks(const Look& look, std::size_t size, std::uint32_t first_id, PairBuffer& pairs) {
+  for (std::size_t at = 0; at < size; at += 2 * byte_block)
+    if (!compare_two_blocks(look, at, size, first_id, pairs)) return;
+}
+
+/// Whether few boxes seem to overlap and do not: one of a block and another box, on average of a part of them, and some
+/// more. With more of them keys alone take less time. Crowds that are small beside the whole share a byte.
 template <class Key>
 HWY_INLINE bool are_parted(const SmallColumns<Key>& columns, const ByteColumns& bytes, std::size_t size) {
-  const std::size_t blocks = size / byte_block;
-  std::size_t seeming = 0;
-  for (std::size_t i = 0; 4 * i < size && blocks != 0 && seeming <= thresholds.most_seeming; ++i) {
-    const std::size_t at = 7 * i % blocks * byte_block;
-    for (std::uint32_t left = find_near(bytes, at, 4 * i); left != 0; left &= left - 1)
-      seeming += !overlap(columns, at + static_cast<std::size_t>(std::countr_zero(left)), 4 * i);
-  }
-  return seeming <= thresholds.most_seeming;
+  const std::size_t blocks = size / byte_block, tried = blocks == 0 ? 0 : size / thresholds.others_of_try,
+                    most_seeming = tried + thresholds.seeming_by_chance;
+  std::size_t near = 0, overlapping = 0;
+  for (std::size_t i = 0; i < tried; ++i)
+    near += static_cast<std::size_t>(
+        std::popcount(find_near(bytes, 7 * i % blocks * byte_block, thresholds.others_of_try * i)));
+  if (near <= most_seeming) return true;
+  for (std::size_t i = 0; i < tried; ++i)
+    overlapping += static_cast<std::size_t>(
+        std::popcount(find_overlapping(columns, 7 * i % blocks * byte_block, thresholds.others_of_try * i)));
+  return near - overlapping <= most_seeming;
 }
 
-/// False if there are too many boxes for what bytes say of them; then nothing is emitted.
+/// Boxes up to the next whole block may be anything.
 template <class Key>
-HWY_INLINE bool compare_by_bytes(const SmallColumns<Key>& columns, std::size_t size, std::uint32_t first_id,
+HWY_INLINE void compare_by_bytes(const SmallColumns<Key>& columns, std::size_t size, std::uint32_t first_id,
                                  PairBuffer& pairs) {
   ByteColumns bytes;
   make_bytes(columns, size, bytes);
-  if (size > thresholds.surely_small && !are_parted(columns, bytes, size)) return false;
-  for (std::size_t at = 0; at < size; at += 2 * byte_block)
-    if (!compare_two_blocks(columns, bytes, at, size, first_id, pairs)) return true;
-  return true;
+  if (are_parted(columns, bytes, size))
+    compare_blocks(ByBytes<Key>{columns, bytes}, size, first_id, pairs);
+  else
+    compare_blocks(ByKeys<Key>{columns}, size, first_id, pairs);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -71,7 +71,7 @@ HWY_INLINE Pair* put(const Record& one, const Columns& many, std::size_t at, std
       hn::And(hn::LoadMaskBits(du, bytes),
               hn::AndNot(hn::RebindMask(du, hn::Or(hn::Or(disjoint(0), disjoint(1)), disjoint(2))), owned));
   const std::size_t count = hn::CountTrue(du, hit);
-  const auto id = hn::Set(du, one.id), found = hn::Compress(hn::LoadU(du, many.id + at), hit);
+  const auto id = hn::Set(du, one.id), found = compressed(du, hn::LoadU(du, many.id + at), hit);
   if constexpr (emit == Emit::sorted)
     store(hn::Min(id, found), hn::Max(id, found), count, out);
   else if constexpr ((emit == Emit::set_first) == one_is_of_set)

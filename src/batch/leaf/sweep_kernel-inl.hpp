@@ -318,7 +318,7 @@ class Sweep {
         const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
         const auto mask = hn::LoadMaskBits(du, bytes);
         const auto first = static_cast<std::uint32_t>((is_run ? hit.other : hit.set) + k * lanes);
-        const auto many = hn::Compress(hn::Add(hn::Iota(du, 0), hn::Set(du, first)), mask),
+        const auto many = compressed(du, hn::Add(hn::Iota(du, 0), hn::Set(du, first)), mask),
                    one = hn::Set(du, is_run ? hit.set : hit.other);
         const std::size_t count = hn::CountTrue(du, mask);
         store(is_run ? one : many, is_run ? many : one, count, found_ + found_count_);

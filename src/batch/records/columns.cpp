@@ -192,7 +192,7 @@ HWY_INLINE bool compare_block(const BoxColumnsOf<Key>* few, std::uint32_t few_si
       const std::size_t count = hn::CountTrue(du, hit);
       if (count == 0) continue;
       const auto found =
-          hn::Compress(hn::Add(hn::Iota(du, 0), hn::Set(du, first_id + static_cast<std::uint32_t>(v * step))), hit);
+          compressed(du, hn::Add(hn::Iota(du, 0), hn::Set(du, first_id + static_cast<std::uint32_t>(v * step))), hit);
       if (few_first)
         store(id, found, count, out);
       else

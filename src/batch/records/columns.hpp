@@ -89,9 +89,7 @@ bool compare_few(Span<const Aabb64> few, Span<const Aabb64> many, Faces faces, b
                  FewAndMany& valid);
 
 /// Emits the pairs of `count` <= thresholds.most_small boxes that overlap, the smaller index first, and stops early
-/// when the search is to stop. Indices count from `first_id`. Returns how many boxes are valid; or, of more than
-/// `surely_small`, `not_small` where it would take long, and nothing is emitted.
-constexpr std::size_t not_small = ~std::size_t{0};
+/// when the search is to stop. Indices count from `first_id`. Returns how many boxes are valid.
 std::size_t compare_small(const Aabb* boxes, std::size_t count, Faces faces, std::uint32_t first_id, PairBuffer& pairs);
 std::size_t compare_small(const Aabb64* boxes, std::size_t count, Faces faces, std::uint32_t first_id,
                           PairBuffer& pairs);

@@ -76,6 +76,40 @@ HWY_INLINE std::uint32_t bits_of(DT d, Mask mask) {
   }
 }
 
+#if HWY_TARGET == HWY_AVX2
+
+/// Of each byte, the numbers of its bits that are set, and then zeros.
+struct SetBits {
+  alignas(8) std::uint8_t of[256][8] = {};
+
+  constexpr SetBits() {
+    for (unsigned byte = 0; byte < 256; ++byte) {
+      std::size_t count = 0;
+      for (unsigned bit = 0; bit < 8; ++bit)
+        if ((byte >> bit & 1) != 0) of[byte][count++] = static_cast<std::uint8_t>(bit);
+    }
+  }
+};
+inline constexpr SetBits set_bits;
+
+/// The lanes in `mask`, one after the other. What is behind them may be anything. Highway's table for this is a local
+/// array, a KiB that GCC copies to the stack each time.
+template <class DT, class Mask>
+HWY_INLINE hn::VFromD<DT> compressed(DT d, hn::VFromD<DT> values, Mask mask) {
+  static_assert(sizeof(hn::TFromD<DT>) == 4 && hn::MaxLanes(DT()) <= 8);
+  const auto lanes_of_mask = hn::LoadU(hn::Rebind<std::uint8_t, DT>(), set_bits.of[bits_of(d, mask)]);
+  return hn::TableLookupLanes(values, hn::IndicesFromVec(d, hn::PromoteTo(d, lanes_of_mask)));
+}
+
+#else
+
+template <class DT, class Mask>
+HWY_INLINE hn::VFromD<DT> compressed(DT, hn::VFromD<DT> values, Mask mask) {
+  return hn::Compress(values, mask);
+}
+
+#endif
+
 /// Stores the pairs of the first `count` lanes; room for all of them is needed.
 HWY_INLINE void store(VU a, VU b, std::size_t count, Pair* out) {
 #if HWY_TARGET == HWY_SCALAR
