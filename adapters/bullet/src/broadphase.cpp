@@ -68,6 +68,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     few_verdicts.note_created(*proxy);
     pending.reserve(live.size());
     pending.create(*proxy);
+    note_filter(filter_for_world(*proxy));
     note_pending();
     all_have_begun = false;
     if (surroundings.are_kept()) surroundings.note_created(*proxy, box_in_world(*proxy));
@@ -147,7 +148,6 @@ void Broadphase::Impl::reset() {
   spare_lists.clear();
   default_rule = own != nullptr;
   stats = {};
-  created = 0;
   held_batches = few_failures = few_wait = still_batches = 0;
   next_checked = checked_since_change = answered = 0;
   groups = 0;
@@ -193,6 +193,7 @@ void Broadphase::Impl::flush_changes() {
     pending.flush(world, [this](const Proxy& proxy) {
       const Filter filter = filter_for_world(proxy);
       note_filter(filter);
+      if (proxy.has_new_filter()) few_verdicts.forget();
       return filter;
     });
   });

@@ -69,10 +69,6 @@ struct Broadphase::Impl {
     if (options.eager != Eager::all || !proxy.id) return no_box;
     return box_in_world(proxy);
   }
-  /// Larger than the box of the proxy, by what is for pairs only.
-  Box box_in_world(const Proxy& proxy) const {
-    return PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), proxy.margin);
-  }
   bool is_exact_in_world(const Proxy& proxy) const { return proxy.margin == 0; }
   /// False if no proxy needs pairs before the next batch. Only a ghost callback could see the difference, and it casts
   /// clients in the same way. A borrowed cache does not say whether it has one; but a ghost's pairs need a dispatcher.
@@ -162,6 +158,7 @@ struct Broadphase::Impl {
     may_refuse = may_refuse || filter.group == 0 || (groups & ~shared_mask) != 0;
   }
   bool accepts(ProxyId a, ProxyId b) const;
+  void note_refusal(Proxy& low, Proxy& high) const;
   void update_rule();
   void update_filters();
   void update_filter(Proxy& proxy, Filter filter);

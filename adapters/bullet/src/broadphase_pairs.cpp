@@ -10,29 +10,33 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
+/// By its filter as it is. From now on a write of the filter fields shows, back to what the World has as well. If the
+/// World applies filters itself it gets this one in the next batch.
+void Broadphase::Impl::note_refusal(Proxy& low, Proxy& high) const {
+  may_refuse = true;
+  for (Proxy* proxy : {&low, &high}) {
+    if (!proxy->has_new_filter()) continue;
+    proxy->world_filter = proxy->filter();
+    if (!default_rule) continue;
+    proxy->world_filter.group = ~proxy->world_filter.group;
+    has_new_filters = true;
+  }
+}
+
 bool Broadphase::Impl::accepts(ProxyId a, ProxyId b) const {
   Proxy& low = proxy_of(a);
   Proxy& high = proxy_of(b);
   if (low.destroyed || high.destroyed) return false;
   if (own) {
     if (own->needsBroadphaseCollision(&low, &high)) return true;
-    may_refuse = true;
-    // From now on a write of the filter fields shows, back to what the World has as well. If it applies filters itself
-    // it gets this one in the next batch.
-    for (Proxy* proxy : {&low, &high}) {
-      if (!proxy->has_new_filter()) continue;
-      proxy->world_filter = proxy->filter();
-      if (!default_rule) continue;
-      proxy->world_filter.group = ~proxy->world_filter.group;
-      has_new_filters = true;
-    }
+    note_refusal(low, high);
     return false;
   }
   // Adding the pair applies the filter: the cache calls it once for each pair.
   require_room(*cache, 1);
   const int before = cache->getNumOverlappingPairs();
   const bool added = cache->addOverlappingPair(&low, &high) || cache->getNumOverlappingPairs() != before;
-  may_refuse = may_refuse || !added;
+  if (!added) note_refusal(low, high);
   if (!low.destroyed && !high.destroyed) return added;
   // The filter destroyed one of the two and then accepted the pair.
   cache->removeOverlappingPair(&low, &high, nullptr);
@@ -92,12 +96,17 @@ bool Broadphase::Impl::has_written_filter_in_quiet() {
 /// True if few boxes have moved, or some have been created, so that nothing begins or ends.
 bool Broadphase::Impl::are_few_still() {
   if (live.size() > FewVerdicts::most || !own || options.method == Method::hybrid) return false;
-  constexpr std::size_t most_pending = 4 * FewVerdicts::most;
+  constexpr std::size_t most_pending = 64;  // with those of proxies that are gone
   const bool are_sound = own->is_settled() && is_rule_known() && stats.invalid == 0 && !has_new_filters &&
                          !surroundings.are_kept() && pending.size() <= most_pending;
   if (!are_sound) return false;
   has_new_filters = may_refuse && has_written_filter_in_quiet();
-  if (has_new_filters || !few_verdicts.hold(live)) return false;
+  if (has_new_filters) return false;
+  // Should a box go back to the one that the World has, a callback has to be asked about it all the same.
+  if (!few_verdicts.hold(live, default_rule, [this](const Proxy& proxy) {
+        if (!default_rule) world.refilter(proxy.id);
+      }))
+    return false;
   stats.proxies = live.size();
   stats.moved = stats.begun = stats.ended = 0;
   stats.search = {};
@@ -142,7 +151,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
       impl->few_verdicts.forget();
     }
   } guard{this};
-  bool are_told = false;
+  bool are_told = false, are_searched = false;
   if (rooms.are_open()) {
     own->prepare(world);  // before filters are asked, for they might remove pairs
     ask_about_begun();
@@ -162,6 +171,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     if (own) own->prepare(world);
     const InWorld busy(*this);
     stats = world.update([&](ProxyId a, ProxyId b) { return accepts(a, b); });
+    are_searched = true;
   }
   if (surroundings.are_kept()) note_ended();
   if (own) {
@@ -175,7 +185,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     all_have_begun = are_told || !has_pending.load(std::memory_order_relaxed);
     answered = 0;
     follow_rooms();
-    rooms.are_open() || !pending.empty() ? few_verdicts.forget() : few_verdicts.learn(live, own->store());
+    are_searched&& pending.empty() ? few_verdicts.learn(live, own->store()) : few_verdicts.forget();
   }
   surroundings.note_batch();
   guard.impl = nullptr;

@@ -56,7 +56,10 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
     {
       const boxstream::detail::DefaultFloatEnvironment environment;
       const boxstream::detail::RaySlabs<btScalar> ray(ray_of(rayFrom, rayCallback, aabbMin, aabbMax));
-      found.look([&](const auto& box) { return ray.meets(box); });
+      found.look([&](const Proxy& proxy) {
+        const auto box = box_in_world(proxy);
+        return ray.meets(box) && is_valid(box);
+      });
     }
     return found.report(rayCallback);
   }
@@ -79,7 +82,11 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
     FoundFew found(impl_->live, impl_->created);
     {
       const boxstream::detail::DefaultFloatEnvironment environment;
-      if (is_valid(box)) found.look([&](const auto& other) { return overlaps(box, other); });
+      if (is_valid(box))
+        found.look([&](const Proxy& proxy) {
+          const auto other = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
+          return overlaps(box, other) && is_valid(other);
+        });
     }
     return found.report(callback);
   }

@@ -2,6 +2,7 @@
 #include "few_verdicts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include <boxstream/detail/float_environment.hpp>
@@ -12,14 +13,8 @@ namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 namespace {
 
-using Box = BasicAabb<btScalar>;
-
-Box box_in_world(const Proxy& proxy) {
-  return PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), proxy.margin);
-}
-
 /// With branches: verdicts are mostly those of the batch before, so that they are easy to predict.
-bool touches(const Box& box, const Proxy& other) {
+bool touches(const PendingChanges::Box& box, const Proxy& other) {
   if (other.margin != 0) return overlaps(box, box_in_world(other));
   for (int d = 0; d < 3; ++d)
     if (!(box.min[d] <= other.m_aabbMax.m_floats[d]) || !(other.m_aabbMin.m_floats[d] <= box.max[d])) return false;
@@ -36,12 +31,12 @@ void FewVerdicts::note_destroyed(const Proxy& proxy, std::size_t size) {
   if (!are_known_) return;
   const std::uint32_t gone = proxy.position, last = std::uint32_t(size - 1);
   if (held_[gone] != 0) return forget();
-  const std::uint64_t last_moved = moved_ >> last & 1;
+  const std::uint32_t last_moved = (moved_ & bit(last)) != 0 ? bit(gone) : 0;
   moved_ &= ~(bit(gone) | bit(last));
   if (gone == last) return;
-  moved_ |= last_moved << gone;
+  moved_ |= last_moved;
   held_[gone] = held_[last];
-  for (std::uint64_t others = held_[last]; others != 0; others &= others - 1)
+  for (std::uint32_t others = held_[last]; others != 0; others &= others - 1)
     held_[std::countr_zero(others)] ^= bit(gone) | bit(last);
 }
 
@@ -52,10 +47,8 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs) {
     --searches_left_;
     return;
   }
-  if (held_batches_ >= patience_) patience_ = std::min(2 * patience_, most_patience);
-  held_batches_ = 0;
   moved_ = 0;
-  std::fill_n(held_, live.size(), 0);
+  std::fill_n(held_, live.size(), 0u);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const std::uint32_t a = position_of(pairs[i].m_pProxy0), b = position_of(pairs[i].m_pProxy1);
     held_[a] |= bit(b);
@@ -63,40 +56,48 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs) {
   }
 }
 
-bool FewVerdicts::hold(const Proxies& live) {
-  constexpr std::size_t most_looks = 128;  // more are left to vectors
-  if (!are_known_ || held_batches_ >= patience_) return false;
-  if (std::size_t(std::popcount(moved_)) * live.size() > most_looks) return false;
+bool FewVerdicts::touch_as_held(const Proxies& live, bool by_masks) const {
   const boxstream::detail::DefaultFloatEnvironment environment;
   const auto size = std::uint32_t(live.size());
-  const bool all_moved = std::size_t(std::popcount(moved_)) == live.size();  // each pair once is enough then
-  for (std::uint64_t left = moved_; left != 0; left &= left - 1) {
+  const bool all_moved = moved_ == bit(size) - 1;  // each pair once is enough then
+  for (std::uint32_t left = moved_; left != 0; left &= left - 1) {
     const auto mover = std::uint32_t(std::countr_zero(left));
-    const Box box = box_in_world(*live[mover]);
+    const Proxy& proxy = *live[mover];
+    const PendingChanges::Box box = box_in_world(proxy);
     if (!is_valid(box)) return false;
-    for (std::uint32_t other = all_moved ? mover + 1 : 0; other < size; ++other)
-      if (touches(box, *live[other]) != are_held(mover, other) && other != mover) return false;
+    for (std::uint32_t other = all_moved ? mover + 1 : 0; other < size; ++other) {
+      const bool held = are_held(mover, other);
+      if (touches(box, *live[other]) == held || other == mover) continue;
+      if (held || !by_masks || accepts(proxy.world_filter, live[other]->world_filter)) return false;
+    }
   }
-  moved_ = 0;
-  ++held_batches_;
   return true;
 }
 
-void FewVerdicts::validate(const Proxies& live, PairStore& pairs) const {
+void FewVerdicts::validate(const Proxies& live, PairStore& pairs, bool by_masks) const {
   const auto check = [](bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
   };
   if (!are_known_) return;
   check(live.size() <= most, "verdicts: of many proxies");
   const boxstream::detail::DefaultFloatEnvironment environment;
+  std::size_t bits = 0;
   for (const Proxy* a : live)
     for (const Proxy* b : live) {
-      if (!are_held(a->position, b->position)) continue;
-      check(are_held(b->position, a->position), "verdicts: one without the other");
+      if (a == b) continue;
+      const bool has_moved = (moved_ & (bit(a->position) | bit(b->position))) != 0;
+      const bool touch = is_valid(box_in_world(*a)) && is_valid(box_in_world(*b)) && touches(box_in_world(*a), *b);
+      if (!are_held(a->position, b->position)) {
+        const bool are_filters_known = by_masks && !a->has_new_filter() && !b->has_new_filter();
+        check(has_moved || !touch || !are_filters_known || !accepts(a->world_filter, b->world_filter),
+              "verdicts: a pair that touches and is not held");
+        continue;
+      }
+      ++bits;
       check(pairs.find(*a, *b) != PairStore::npos, "verdicts: a pair that is not held");
-      const bool moved = (moved_ & (bit(a->position) | bit(b->position))) != 0;
-      check(moved || touches(box_in_world(*a), *b), "verdicts: a pair that does not touch");
+      check(has_moved || touch, "verdicts: a pair that does not touch");
     }
+  check(bits == 2 * std::size_t{pairs.size()}, "verdicts: other pairs are held");
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

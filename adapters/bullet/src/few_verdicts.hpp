@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,16 +13,14 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// Of few proxies, which pairs are held, a bit for each. A batch in which the boxes that have moved touch what they are
-/// held with, and nothing else, is over then. The World hears of their boxes when there is more to do, or a query.
-///
-/// Rooms (see ProxyRooms) take no look at other boxes, but have to be made. So batches are searched now and then all
-/// the same, less and less often, for rooms to be tried.
+/// Of very few proxies, which pairs are held, a bit for each. A batch in which the boxes that have moved touch what
+/// they are held with, and nothing else, is over then. The World hears of their boxes when there is more to do, or a
+/// query. A look at all pairs is so little there that rooms (see ProxyRooms) would save nothing.
 class FewVerdicts {
  public:
   using Proxies = std::vector<Proxy*>;
 
-  static constexpr std::size_t most = 64;
+  static constexpr std::size_t most = 12;
 
   /// Until the next search.
   void forget() noexcept { are_known_ = false; }
@@ -41,28 +38,36 @@ class FewVerdicts {
   /// After a search that has seen all changes: `pairs` are those that are held.
   void learn(const Proxies& live, PairStore& pairs);
 
-  /// True if nothing begins or ends by what has moved since this was last asked, or learned.
-  bool hold(const Proxies& live);
+  /// True if nothing begins or ends by what has moved since this was last asked with that answer, or learned.
+  /// `by_masks`: group and mask refuse pairs, and nothing else does. Calls `visit(proxy)` for what has moved then.
+  template <class Visit>
+  bool hold(const Proxies& live, bool by_masks, Visit&& visit) {
+    if (!are_known_ || !touch_as_held(live, by_masks)) return false;
+    for (const Proxy* proxy : live)
+      if ((moved_ & bit(proxy->position)) != 0) visit(*proxy);
+    moved_ = 0;
+    return true;
+  }
 
-  void validate(const Proxies& live, PairStore& pairs) const;
+  /// For pairs that are settled.
+  void validate(const Proxies& live, PairStore& pairs, bool by_masks) const;
 
  private:
-  static std::uint64_t bit(std::uint32_t position) { return std::uint64_t{1} << position % most; }
+  static std::uint32_t bit(std::uint32_t position) { return 1u << position % 32; }
   bool are_held(std::uint32_t a, std::uint32_t b) const { return (held_[a] & bit(b)) != 0; }
+  bool touch_as_held(const Proxies& live, bool by_masks) const;
   void note_many() noexcept {
     forget();
     searches_left_ = searches_after_many;
   }
 
-  static constexpr unsigned least_patience = 4, most_patience = 64;
   /// In these, memory that many proxies took goes back.
   static constexpr unsigned searches_after_many = 12;
 
   bool are_known_ = true;  // at first there are none
-  std::uint64_t moved_ = 0;
-  std::uint64_t held_[most];
-  unsigned held_batches_ = 0, patience_ = least_patience;  // since the last search, and at most
-  unsigned searches_left_ = 0;                             // before this may take part
+  std::uint32_t moved_ = 0;
+  std::uint32_t held_[most];
+  unsigned searches_left_ = 0;  // before this may take part
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

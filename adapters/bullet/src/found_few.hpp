@@ -27,14 +27,11 @@ class FoundFew {
   FoundFew(const Proxies& live, const std::uint64_t& created)
       : live_(live), created_(created), were_live_(live.size()), were_created_(created) {}
 
-  /// Adds those of whose valid boxes `is_found(box)` is true, in the order of their creation. For the default
-  /// floating-point environment.
+  /// Adds those for which `is_found(proxy)` is true, in the order of their creation.
   template <class IsFound>
   void look(IsFound&& is_found) {
-    for (const Proxy* proxy : live_) {
-      const auto box = box_of(proxy->m_aabbMin, proxy->m_aabbMax);
-      if (is_found(box) && is_valid(box)) add(*proxy);
-    }
+    for (const Proxy* proxy : live_)
+      if (is_found(*proxy)) add(*proxy);
   }
 
   template <class Callback>

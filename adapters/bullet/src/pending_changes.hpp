@@ -50,6 +50,8 @@ class PendingChanges {
 
   /// Box and filter are read by `flush`.
   void create(Proxy& proxy) {
+    // Coming and going without a flush must not grow the list without bound.
+    if (created_.size() == created_.capacity()) drop_discarded();
     proxy.pending_index = std::uint32_t(created_.size());
     created_.push_back(&proxy);
     proxy.world_filter = proxy.filter();
@@ -75,7 +77,8 @@ class PendingChanges {
     return proxy.id ? at < moved_ && ids_[at] == proxy.id : at < created_.size() && created_[at] == &proxy;
   }
 
-  /// Applies all changes to the World and sets the ids of new proxies. `filter_for(proxy)` is the filter in the World.
+  /// Applies all changes to the World and sets the ids of new proxies. `filter_for(proxy)` is the filter in the World,
+  /// asked for while `world_filter` is still that of when the proxy came.
   template <class FilterFor>
   void flush(BasicWorld<btScalar>& world, FilterFor&& filter_for) {
     world.move({ids_.data(), moved_}, {boxes_.data(), moved_});
@@ -98,31 +101,40 @@ class PendingChanges {
   }
 
  private:
+  void drop_discarded() {
+    std::uint32_t kept = 0;
+    for (Proxy* proxy : created_) {
+      if (proxy == nullptr) continue;
+      proxy->pending_index = kept;
+      created_[kept++] = proxy;
+    }
+    created_.resize(kept);
+    created_.reserve(2 * std::size_t{kept} + 8);  // so that it is not done again soon
+  }
+
   template <class FilterFor>
   void flush_created(BasicWorld<btScalar>& world, FilterFor&& filter_for) {
     last_moved_ = 0;
     created_.erase(std::remove(created_.begin(), created_.end(), nullptr), created_.end());
     const std::size_t count = created_.size();
-    constexpr std::size_t few = 16;  // which need no scratch
-    if (count <= few) {
-      for (Proxy* proxy : created_) {
-        proxy->world_filter = proxy->filter();
-        proxy->id = world.create(grown(box_of(proxy->m_aabbMin, proxy->m_aabbMax), proxy->margin), filter_for(*proxy),
-                                 reinterpret_cast<std::uintptr_t>(proxy));
-      }
-      return created_.clear();
-    }
     reserve(count);
-    filters_.clear();
-    users_.clear();
+    constexpr std::size_t few = 16;  // which need no scratch
+    Filter few_filters[few];
+    std::uint64_t few_users[few];
+    if (count > few) {
+      filters_.resize(count);
+      users_.resize(count);
+    }
+    const Span<Filter> filters(count > few ? filters_.data() : few_filters, count);
+    const Span<std::uint64_t> users(count > few ? users_.data() : few_users, count);
     for (std::size_t i = 0; i < count; ++i) {
       Proxy& proxy = *created_[i];
       boxes_[i] = grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), proxy.margin);
+      filters[i] = filter_for(proxy);
       proxy.world_filter = proxy.filter();
-      filters_.push_back(filter_for(proxy));
-      users_.push_back(reinterpret_cast<std::uintptr_t>(&proxy));
+      users[i] = reinterpret_cast<std::uintptr_t>(&proxy);
     }
-    world.create({boxes_.data(), count}, filters_, {ids_.data(), count}, users_);
+    world.create({boxes_.data(), count}, filters, {ids_.data(), count}, users);
     for (std::size_t i = 0; i < count; ++i) created_[i]->id = ids_[i];
     created_.clear();
   }
@@ -137,6 +149,11 @@ class PendingChanges {
   std::vector<Filter> filters_;
   std::vector<std::uint64_t> users_;
 };
+
+/// Larger than the box of the proxy, by what is for pairs and rays only.
+inline PendingChanges::Box box_in_world(const Proxy& proxy) {
+  return PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), proxy.margin);
+}
 
 }  // namespace BOXSTREAM_BULLET_PRECISION
 }  // namespace boxstream::bullet

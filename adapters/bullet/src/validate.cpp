@@ -88,7 +88,7 @@ void PairCache::validate(const BasicWorld<btScalar>& world) {
 void Broadphase::Impl::validate() {
   rooms.validate(live, world, own && own->getOverlapFilterCallback() != nullptr);
   if (!rooms.are_open()) surroundings.validate(live, world);
-  if (own && own->user_changes().empty()) few_verdicts.validate(live, own->store());
+  if (own && own->is_settled()) few_verdicts.validate(live, own->store(), default_rule);
   if (rooms.are_open() || all_have_begun) flush_pending();  // held pairs touch by boxes that the World may not have
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;

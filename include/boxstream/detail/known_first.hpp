@@ -52,7 +52,7 @@ class KnownFirst {
   std::atomic<std::uint64_t> words_[4]{};  // sets have no number 0
 };
 
-/// A number that nothing else in the process has; moving takes it along.
+/// A number that nothing else has that this library makes; moving takes it along.
 class OwnNumber {
  public:
   operator std::uint64_t() const { return number_; }

@@ -43,18 +43,33 @@ void live_on(Pile& pile, Random& random, int frame) {
   }
 }
 
+/// Sorted, of boxes that are larger by the margin.
+std::vector<UidPair> expected(const Pile& pile, btScalar margin) {
+  const btVector3 more(margin, margin, margin);
+  std::vector<UidPair> pairs;
+  for (const btBroadphaseProxy* a : pile.proxies)
+    for (const btBroadphaseProxy* b : pile.proxies)
+      if (a->m_uniqueId < b->m_uniqueId && is_valid_box(a->m_aabbMin, a->m_aabbMax) &&
+          is_valid_box(b->m_aabbMin, b->m_aabbMax) &&
+          boxes_overlap(a->m_aabbMin - more, a->m_aabbMax + more, b->m_aabbMin - more, b->m_aabbMax + more))
+        pairs.emplace_back(a->m_uniqueId, b->m_uniqueId);
+  return sorted(pairs);
+}
+
 TEST(BulletFewVerdicts, PairsAreThoseThatTouch) {
-  for (const btScalar margin : {btScalar(0), btScalar(0.01)})
-    for (const int side : {1, 2, 3, 4}) {
+  for (const btScalar margin : {btScalar(0), btScalar(0.0625)})
+    for (const int more : {-7, -4, 0, 3, 5}) {
       bullet::Options options;
       options.margin = margin;
-      Pile pile(options, side, std::uint64_t(side));
+      Pile pile(options, 2, std::uint64_t(8 + more));
       Random random(17);
-      for (int frame = 0; frame < 1500; ++frame) {
+      for (int i = 0; i < more; ++i) pile.add(random.vector(-2, 2));
+      for (int i = 0; i > more; --i) pile.remove(0);
+      for (int frame = 0; frame < 2000; ++frame) {
         live_on(pile, random, frame);
         if (random.below(5) == 0) continue;  // several changes before a batch
         pile.calculate();
-        if (margin == 0) pile.check("a few", frame);
+        ASSERT_EQ(pairs_of(pile.broadphase), expected(pile, margin)) << margin << ", " << more << ", frame " << frame;
         ASSERT_NO_THROW(pile.broadphase.validate()) << frame;
       }
     }
@@ -80,6 +95,19 @@ TEST(BulletFewVerdicts, FiltersThatUsersWriteAreSeen) {
   pile.check("accepted again", 0);
 }
 
+/// Before the World has heard of the proxies.
+TEST(BulletFewVerdicts, MasksOfNewProxiesMayBeWritten) {
+  Pile pile({}, 1);
+  pile.add(pile.places[0], 1, 0);
+  for (int batch = 0; batch < 3; ++batch) pile.calculate();
+  pile.check("refused", 0);
+  EXPECT_TRUE(pairs_of(pile.broadphase).empty());
+  pile.proxies[1]->m_collisionFilterMask = -1;
+  pile.calculate();
+  pile.check("accepted", 0);
+  EXPECT_EQ(pairs_of(pile.broadphase).size(), 1u);
+}
+
 TEST(BulletFewVerdicts, CallbacksAreAskedAboutRefusedPairsInEachMove) {
   Pile pile({}, 2);
   FunctionFilter filter([](btBroadphaseProxy*, btBroadphaseProxy*) { return false; });
@@ -94,17 +122,42 @@ TEST(BulletFewVerdicts, CallbacksAreAskedAboutRefusedPairsInEachMove) {
   }
 }
 
-TEST(BulletFewVerdicts, ComingAndGoingWithoutEndKeepsNoMemory) {
+/// Although the World has not heard that it was away.
+TEST(BulletFewVerdicts, CallbacksAreAskedAboutABoxThatComesBack) {
+  bool accepts = false;
+  FunctionFilter filter([&](btBroadphaseProxy*, btBroadphaseProxy*) { return accepts; });
   Pile pile({}, 1);
+  pile.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&filter);
+  pile.add(pile.places[0]);
+  for (int batch = 0; batch < 3; ++batch) pile.calculate();
+  EXPECT_TRUE(pairs_of(pile.broadphase).empty());
+  pile.set(1, btVector3(9, 9, 9));
   pile.calculate();
-  for (int turn = 0; turn < 10000; ++turn) {
-    pile.add(btVector3(btScalar(5 + turn % 7), 0, 0));
-    pile.calculate();
-    pile.remove(turn % 2 == 0 ? 1 : 0);
-    pile.calculate();
+  accepts = true;
+  pile.set(1, pile.places[1]);
+  pile.calculate();
+  EXPECT_EQ(pairs_of(pile.broadphase).size(), 1u);
+}
+
+/// As among more of them.
+TEST(BulletFewVerdicts, RaysMeetBoxesWithTheirMargin) {
+  bullet::Options options;
+  options.margin = btScalar(0.125);
+  for (const int count : {1, 4, 5, 40}) {
+    bullet::Broadphase broadphase(options);
+    std::vector<btBroadphaseProxy*> proxies;
+    for (int i = 0; i < count; ++i) {
+      const Box box = cube(btScalar(3 * i), 0, 0);
+      proxies.push_back(broadphase.createProxy(box.lo, box.hi, BOX_SHAPE_PROXYTYPE, nullptr, 1, -1, nullptr));
+    }
+    for (const btScalar height : {btScalar(0.5), btScalar(0.6), btScalar(0.65)}) {
+      const btVector3 from(-2, height, 0), to(2, height, 0);
+      FoundOnRay found(from, to);
+      broadphase.rayTest(from, to, found);
+      EXPECT_EQ(found.proxies.size(), height < btScalar(0.625) ? 1u : 0u) << count << ", at " << height;
+    }
+    for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
   }
-  EXPECT_LT(pile.broadphase.stats().proxies, 3u);
-  ASSERT_NO_THROW(pile.broadphase.validate());
 }
 
 /// Found by a look at each.
@@ -114,20 +167,26 @@ TEST(BulletFewVerdicts, QueriesMayCreateAndDestroyProxies) {
     bool process(const btBroadphaseProxy* proxy) override {
       EXPECT_NE(std::find(pile.proxies.begin(), pile.proxies.end(), proxy), pile.proxies.end());
       ++found;
-      // All others go, and one of those that come gets the memory of one that was found.
-      while (pile.proxies.size() > 1) pile.remove(pile.proxies[0] == proxy ? 1 : 0);
-      pile.add(btVector3(0, 0, 0));
+      // All go, and as many that come get their memory.
+      const std::size_t count = pile.proxies.size();
+      while (!pile.proxies.empty()) pile.remove(0);
+      if (resets) pile.broadphase.resetPool(nullptr);
+      while (pile.proxies.size() < count) pile.add(btVector3(0, 0, 0));
       return true;
     }
     Pile& pile;
+    bool resets = false;
     int found = 0;
   };
-  Pile pile({}, 2);
-  pile.calculate();
-  Replace replace(pile);
-  pile.broadphase.aabbTest(btVector3(-9, -9, -9), btVector3(9, 9, 9), replace);
-  EXPECT_EQ(replace.found, 1);
-  ASSERT_NO_THROW(pile.broadphase.validate());
+  for (const bool resets : {false, true}) {
+    Pile pile({}, 2);
+    pile.calculate();
+    Replace replace(pile);
+    replace.resets = resets;
+    pile.broadphase.aabbTest(btVector3(-9, -9, -9), btVector3(9, 9, 9), replace);
+    EXPECT_EQ(replace.found, 1);
+    ASSERT_NO_THROW(pile.broadphase.validate());
+  }
 }
 
 }  // namespace

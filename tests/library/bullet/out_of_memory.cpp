@@ -417,6 +417,37 @@ TEST(BulletMemory, OfProxiesAndPairs) {
   }
 }
 
+/// Where a few come and go, the World does not hear of them.
+TEST(BulletMemory, ComingAndGoingTakesNoMore) {
+  struct Count final : btBroadphaseAabbCallback {
+    bool process(const btBroadphaseProxy*) override { return ++found > 0; }
+    int found = 0;
+  };
+  for (const bool calculates : {false, true}) {
+    Broadphase broadphase;
+    const btVector3 one(1, 1, 1);
+    std::vector<btBroadphaseProxy*> proxies;
+    std::int64_t before = 0;
+    for (int turn = 0; turn < 20000; ++turn) {
+      if (turn == 1000) before = heap_watch::live_bytes();
+      const btVector3 at(btScalar(2 * (turn % 5)), 0, 0);
+      proxies.push_back(broadphase.createProxy(at, at + one, 0, nullptr, 1, -1, nullptr));
+      if (calculates) broadphase.calculateOverlappingPairs(nullptr);
+      broadphase.setAabb(proxies.front(), at - one, at, nullptr);
+      Count count;
+      broadphase.aabbTest(at, at + one, count);
+      EXPECT_GT(count.found, 0);
+      if (proxies.size() < 4) continue;
+      const auto gone = proxies.begin() + turn % 4;
+      broadphase.destroyProxy(*gone, nullptr);
+      proxies.erase(gone);
+    }
+    EXPECT_LE(heap_watch::live_bytes(), before + 1024) << calculates;
+    broadphase.validate();
+    for (btBroadphaseProxy* proxy : proxies) broadphase.destroyProxy(proxy, nullptr);
+  }
+}
+
 /// Of the adapter; the list of proxies that each has is Bullet's in both cases.
 TEST(BulletMemory, AFewObjectsTakeLittle) {
   const std::int64_t before = heap_watch::live_bytes();
