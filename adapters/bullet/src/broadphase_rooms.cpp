@@ -59,7 +59,6 @@ void Broadphase::Impl::follow_rooms() {
     return;
   }
   if (options.method == Method::hybrid) return;  // the method of the paper searches in each step
-  if (live.size() <= FewVerdicts::most && !surroundings.are_kept()) return;
   if (const Span<const ProxyId> moved = pending.last_moved();
       moved.size() == stats.moved && 8 * stats.moved < stats.proxies) {
     rooms_choice.opens(live.size(), false);

@@ -15,7 +15,10 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 
 /// Of very few proxies, which pairs are held, a bit for each. A batch in which the boxes that have moved touch what
 /// they are held with, and nothing else, is over then. The World hears of their boxes when there is more to do, or a
-/// query. A look at all pairs is so little there that rooms (see ProxyRooms) would save nothing.
+/// query.
+///
+/// Rooms (see ProxyRooms) take no look at other boxes, but have to be made, and are left where boxes fly about. So now
+/// and then some batches in a row are searched all the same, for rooms to be tried: less and less often.
 class FewVerdicts {
  public:
   using Proxies = std::vector<Proxy*>;
@@ -46,6 +49,7 @@ class FewVerdicts {
     for (const Proxy* proxy : live)
       if ((moved_ & bit(proxy->position)) != 0) visit(*proxy);
     moved_ = 0;
+    if (++held_batches_ == patience_) let_rooms_try();
     return true;
   }
 
@@ -58,16 +62,24 @@ class FewVerdicts {
   bool touch_as_held(const Proxies& live, bool by_masks) const;
   void note_many() noexcept {
     forget();
-    searches_left_ = searches_after_many;
+    searches_left_ = least_searches;
+  }
+  void let_rooms_try() noexcept {
+    forget();
+    searches_left_ = least_searches + patience_ / 8;
+    patience_ = patience_ < most_patience ? 2 * patience_ : patience_;
+    held_batches_ = 0;
   }
 
-  /// In these, memory that many proxies took goes back.
-  static constexpr unsigned searches_after_many = 12;
+  /// In these, rooms are made where boxes only tremble, and memory that many proxies took goes back.
+  static constexpr unsigned least_searches = 12;
+  static constexpr unsigned least_patience = 16, most_patience = 1024;
 
   bool are_known_ = true;  // at first there are none
   std::uint32_t moved_ = 0;
   std::uint32_t held_[most];
-  unsigned searches_left_ = 0;  // before this may take part
+  unsigned held_batches_ = 0, patience_ = least_patience;  // since rooms were last let try, and at most
+  unsigned searches_left_ = 0;                             // before this may take part
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION
