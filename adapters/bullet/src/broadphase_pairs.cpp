@@ -185,7 +185,10 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     all_have_begun = are_told || !has_pending.load(std::memory_order_relaxed);
     answered = 0;
     follow_rooms();
-    are_searched&& pending.empty() ? few_verdicts.learn(live, own->store()) : few_verdicts.forget();
+    if (are_searched && pending.empty())
+      few_verdicts.learn(live, own->store());
+    else
+      few_verdicts.forget();
   }
   surroundings.note_batch();
   guard.impl = nullptr;

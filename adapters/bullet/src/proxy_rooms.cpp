@@ -9,7 +9,6 @@
 
 #include <boxstream/detail/float_environment.hpp>
 
-#include "pending_changes.hpp"
 #include "usual_margin.hpp"
 
 namespace boxstream::bullet {
@@ -40,13 +39,9 @@ btScalar clearance(const Box& a, const Box& b, bool touch) {
 
 }  // namespace
 
-Box ProxyRooms::grown(const Box& box, btScalar margin) {
-  return PendingChanges::grown(box, margin);
-}
-
 /// Of valid boxes. Without branches: of watched ones the outcome is hard to predict.
 bool ProxyRooms::touch(const Proxy& a, const Proxy& b, bool has_margin) {
-  if (has_margin) return overlaps(box_of_world(a), box_of_world(b));
+  if (has_margin) return overlaps(box_in_world(a), box_in_world(b));
   bool touch = true;
   for (int d = 0; d < 3; ++d)
     touch = touch & (a.m_aabbMin.m_floats[d] <= b.m_aabbMax.m_floats[d]) &
@@ -184,7 +179,7 @@ bool ProxyRooms::open(const Proxies& live, PairStore& pairs) {
   if (count >= std::size_t{1} << 30) return false;
   fat_boxes_.resize(count);
   rows_.assign(count, Row());
-  for (std::size_t i = 0; i < count; ++i) fat_boxes_[i] = fat_box(box_of_world(*live[i]), 0);
+  for (std::size_t i = 0; i < count; ++i) fat_boxes_[i] = fat_box(box_in_world(*live[i]), 0);
   detector().find_pairs(fat_boxes_, found_, filters_);
   for (const Pair& pair : found_) {
     ++rows_[pair.a].room;
@@ -217,7 +212,7 @@ bool ProxyRooms::open(const Proxies& live, PairStore& pairs) {
   boxes_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     add_room(*live[i]);
-    start_room(*live[i], boxes_[i] = box_of_world(*live[i]));
+    start_room(*live[i], boxes_[i] = box_in_world(*live[i]));
   }
   has_close_pairs_ = false;
   const auto is_close = [this](const Pair& pair) {
@@ -244,7 +239,7 @@ bool ProxyRooms::open(const Proxies& live, PairStore& pairs) {
 /// A new fat box. Candidates that it does not touch go, but for those that are held: these may have to end.
 bool ProxyRooms::refit(const Proxy& proxy) {
   const std::uint32_t position = proxy.position;
-  const Box box = box_of_world(proxy), last = fat_boxes_[position];
+  const Box box = box_in_world(proxy), last = fat_boxes_[position];
   if (!is_moderate(box) || !is_moderate(last)) return false;
   btScalar went = 0;
   for (int d = 0; d < 3; ++d)
@@ -407,7 +402,7 @@ void ProxyRooms::validate(const Proxies& live, const World& world, bool refuses)
   const boxstream::detail::DefaultFloatEnvironment environment;
   check(rooms_.size() == (are_few() ? few_ : live).size(), "rooms: not one for each proxy");
   for (const Proxy* proxy : live) {
-    const Box box = world.box(proxy->id), given = box_of_world(*proxy);
+    const Box box = world.box(proxy->id), given = box_in_world(*proxy);
     check(differs(*proxy) || box == given || !is_valid(given), "rooms: a box that the World does not have");
     check(are_few() || hold(*proxy, proxy->m_aabbMin, proxy->m_aabbMax) || proxy->has_left_room ||
               !is_moderate(given) || !differs(*proxy),
@@ -418,7 +413,7 @@ void ProxyRooms::validate(const Proxies& live, const World& world, bool refuses)
     for (const Proxy* b : live) {
       if (a->position >= b->position || !(are_few() || accepts(filters_[a->position], filters_[b->position]))) continue;
       if (are_few() && !accepts(world.filter(a->id), world.filter(b->id))) continue;
-      const Box x = box_of_world(*a), y = box_of_world(*b);
+      const Box x = box_in_world(*a), y = box_in_world(*b);
       const bool touch = is_valid(x) && is_valid(y) && overlaps(x, y);
       const bool is_held = world.pair_place(a->id, b->id).has_value();
       check(touch == is_held || (touch && are_few() && refuses),

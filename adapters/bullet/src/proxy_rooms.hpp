@@ -15,6 +15,7 @@
 #include <boxstream/world.hpp>
 
 #include "pair_store.hpp"
+#include "pending_changes.hpp"
 #include "proxy.hpp"
 #include "rooms_choice.hpp"
 
@@ -185,19 +186,11 @@ class ProxyRooms {
     bool is_held, has_margin;
   };
 
-  /// As given, but for a margin.
-  static Box box_of_world(const Proxy& proxy) {
-    const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-    return proxy.margin == 0 ? box : grown(box, proxy.margin);
-  }
-  /// The same where there is a room, without a look at more of the proxy.
+  /// As box_in_world where there is a room, without a look at more of the proxy.
   Box box_in_room(const Proxy& proxy) const {
-    const Box box = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-    const btScalar margin = rooms_[proxy.room].margin;
-    return margin == 0 ? box : grown(box, margin);
+    return PendingChanges::grown(box_of(proxy.m_aabbMin, proxy.m_aabbMax), rooms_[proxy.room].margin);
   }
   bool is_near(const Proxy& proxy) const;
-  static Box grown(const Box& box, btScalar margin);
   static bool touch(const Proxy& a, const Proxy& b, bool has_margin);
   Room& add_room(Proxy& proxy);
   static Box fat_box(const Box& box, btScalar went);

@@ -334,26 +334,6 @@ TEST(BulletContract, P8_AFilterThatShowsByARefusalIsKnown) {
   EXPECT_FALSE(rig.holds(written, refused));
 }
 
-/// A mask that is written, refuses a pair, and is then written back.
-TEST(BulletContract, P8_AMaskThatIsPutBackIsSeen) {
-  btHashedOverlappingPairCache hashed;
-  btSortedOverlappingPairCache sorted_cache;
-  for (btOverlappingPairCache* cache :
-       {static_cast<btOverlappingPairCache*>(nullptr), static_cast<btOverlappingPairCache*>(&hashed),
-        static_cast<btOverlappingPairCache*>(&sorted_cache)}) {
-    Rig rig(Kind::subject, cache);
-    btBroadphaseProxy* const written = rig.create(cube(0, 0, 0));
-    rig.calculate();
-    written->m_collisionFilterMask = 4;
-    btBroadphaseProxy* const other = rig.create(cube(0, 0, 0));
-    rig.calculate();
-    EXPECT_FALSE(rig.holds(written, other));
-    written->m_collisionFilterMask = -1;
-    rig.calculate();
-    EXPECT_TRUE(rig.holds(written, other));
-  }
-}
-
 TEST(BulletContract, P8_StaticAndKinematicPairsAreNotCulled) {
   for (const Kind kind : all_kinds) {
     Rig rig(kind);
