@@ -65,7 +65,7 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
     proxy->position = std::uint32_t(live.size());
     if (live.size() == live.capacity()) live.reserve(std::max<std::size_t>(2 * live.size(), 8));
     live.push_back(proxy);
-    few_verdicts.note_created(*proxy);
+    few_verdicts.note_created(*proxy, box_in_world(*proxy));
     pending.reserve(live.size());
     pending.create(*proxy);
     note_filter(filter_for_world(*proxy));
@@ -80,7 +80,12 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   assert((!own || !own->is_in_callback()) && "callbacks for pairs must not destroy proxies");
   close_rooms();
   all_have_begun = false;
-  if (own) {
+  if (is_known_to_few() && own->holds_worlds_pairs()) {
+    release_in_world(proxy);
+    own->take_out_all_of(proxy, dispatcher);
+    if (!own->holds_worlds_pairs()) few_verdicts.forget();
+  } else if (own) {
+    few_verdicts.forget();
     own->remove_all_of(proxy, dispatcher);
   } else {
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
@@ -99,6 +104,20 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
     free_proxy(proxy);
 }
 
+/// Verdicts say which pairs a proxy has that is destroyed, and the World may change now.
+bool Broadphase::Impl::is_known_to_few() {
+  return own && few_verdicts.are_known() && !own->is_in_callback() && !world_is_busy;
+}
+
+/// The pairs that verdicts know of a proxy that is about to be destroyed.
+void Broadphase::Impl::release_in_world(const Proxy& proxy) {
+  if (!proxy.id || world.pair_count() == 0) return;
+  or_fatal([&] {
+    for (const Proxy* other : live)
+      if (world_lags || few_verdicts.are_held(proxy, *other)) world.release(proxy.id, other->id);
+  });
+}
+
 void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& hi, btDispatcher* dispatcher) {
   const bool has_reach = dispatcher && !options.exact_boxes;
   if (has_same_bits(proxy.m_aabbMin, lo) && has_same_bits(proxy.m_aabbMax, hi)) return;
@@ -115,7 +134,7 @@ void Broadphase::Impl::move(Proxy& proxy, const btVector3& lo, const btVector3& 
   } else {
     const Box box = box_in_world(proxy);
     pending.move(proxy, box);
-    few_verdicts.note_move(proxy);
+    few_verdicts.note_move(proxy, box);
     if (surroundings.are_kept()) surroundings.note_move(proxy, box);
     note_pending();
   }
@@ -139,6 +158,7 @@ void Broadphase::Impl::reset() {
   rooms.give_back();
   rooms_choice = {};
   few_verdicts = {};
+  world_lags = false;
   surroundings = {};
   std::vector<Proxy*>().swap(live);
   std::vector<Proxy*>().swap(destroyed);
@@ -202,7 +222,11 @@ void Broadphase::Impl::flush_changes() {
 /// Releases its pairs first, so that the World holds the same pairs as the cache.
 void Broadphase::Impl::free_proxy(Proxy& proxy) {
   is_quiet = false;
-  if (own) or_fatal([&] { release_user_changes(nullptr, false); });
+  if (own)
+    or_fatal([&] {
+      if (!few_verdicts.are_known()) catch_up();  // else see release_in_world
+      release_user_changes(nullptr, false);
+    });
   if (proxy.id) world.destroy(proxy.id);
   pool.drop(proxy);
 }

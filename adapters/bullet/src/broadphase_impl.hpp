@@ -95,6 +95,7 @@ struct Broadphase::Impl {
 
   ProxyRooms rooms;
   FewVerdicts few_verdicts;
+  bool world_lags = false;  ///< verdicts have changed pairs, of which the World has to be told
   Surroundings surroundings;
   mutable bool has_new_filters = false;
 
@@ -125,7 +126,10 @@ struct Broadphase::Impl {
     return default_rule ? proxy.filter() : Filter{all, all};
   }
   bool is_still_quiet();
-  bool are_few_still();
+  bool is_done_by_few(btDispatcher* dispatcher);
+  void catch_up();
+  bool is_known_to_few();
+  void release_in_world(const Proxy& proxy);
   bool is_rule_known() const;
   bool has_written_filter(std::size_t count);
   bool has_written_filter_in_quiet();

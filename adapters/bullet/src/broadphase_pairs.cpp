@@ -10,14 +10,13 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// By its filter as it is. From now on a write of the filter fields shows, back to what the World has as well. If the
-/// World applies filters itself it gets this one in the next batch.
+/// By its filter as it is. From now on a write of the filter fields shows, back to what the World has as well. The next
+/// batch looks at the pairs of a proxy whose filter was new.
 void Broadphase::Impl::note_refusal(Proxy& low, Proxy& high) const {
   may_refuse = true;
   for (Proxy* proxy : {&low, &high}) {
     if (!proxy->has_new_filter()) continue;
     proxy->world_filter = proxy->filter();
-    if (!default_rule) continue;
     proxy->world_filter.group = ~proxy->world_filter.group;
     has_new_filters = true;
   }
@@ -93,24 +92,62 @@ bool Broadphase::Impl::has_written_filter_in_quiet() {
   return has_written_filter(count);
 }
 
-/// True if few boxes have moved, or some have been created, so that nothing begins or ends.
-bool Broadphase::Impl::are_few_still() {
+/// True if few boxes have moved, or have come and gone, and what begins and ends is done.
+bool Broadphase::Impl::is_done_by_few(btDispatcher* dispatcher) {
   if (live.size() > FewVerdicts::most || !own || options.method == Method::hybrid) return false;
-  constexpr std::size_t most_pending = 64;  // with those of proxies that are gone
+  constexpr std::size_t most_pending = 4 * FewVerdicts::most;  // with those of proxies that are gone
   const bool are_sound = own->is_settled() && is_rule_known() && stats.invalid == 0 && !has_new_filters &&
                          !surroundings.are_kept() && pending.size() <= most_pending;
   if (!are_sound) return false;
   has_new_filters = may_refuse && has_written_filter_in_quiet();
   if (has_new_filters) return false;
   // Should a box go back to the one that the World has, a callback has to be asked about it all the same.
-  if (!few_verdicts.hold(live, default_rule, [this](const Proxy& proxy) {
-        if (!default_rule) world.refilter(proxy.id);
-      }))
-    return false;
+  std::size_t moved = 0;
+  const FewVerdicts::Answer answer = or_fatal([&] {
+    return few_verdicts.ask(live, default_rule, early, [&](const Proxy& proxy) {
+      ++moved;
+      if (!default_rule) world.refilter(proxy.id);
+    });
+  });
+  if (answer == FewVerdicts::Answer::unknown) return false;
   stats.proxies = live.size();
-  stats.moved = stats.begun = stats.ended = 0;
+  stats.moved = moved;
+  stats.begun = stats.ended = 0;
   stats.search = {};
+  if (answer == FewVerdicts::Answer::nothing) return true;
+  const std::uint32_t before = own->store().size();
+  or_fatal([&] {
+    if (few_verdicts.has_any_ended())
+      own->end([this](const btBroadphasePair& pair) { return few_verdicts.has_ended(pair); });
+    own->begin(early);
+  });
+  world_lags = true;
+  stats.pairs = own->store().size();
+  stats.begun = early.size();
+  stats.ended = before + stats.begun - stats.pairs;
+  own->flush_notifications(dispatcher);
   return true;
+}
+
+/// Tells the World of the pairs that few proxies hold. In the next update it decides about them anew, for boxes may
+/// have gone away and come back, or users may have changed pairs.
+void Broadphase::Impl::catch_up() {
+  if (!world_lags) return;
+  flush_pending();
+  own->settle();
+  begun.clear();
+  ended.clear();
+  PairStore& pairs = own->store();
+  for (std::uint32_t i = 0; i < pairs.size(); ++i)
+    begun.push_back(
+        {static_cast<const Proxy*>(pairs[i].m_pProxy0)->id, static_cast<const Proxy*>(pairs[i].m_pProxy1)->id});
+  world.for_each_pair([&](ProxyPair pair) {
+    if (pairs.find(proxy_of(pair.a), proxy_of(pair.b)) == PairStore::npos) ended.push_back(pair);
+    return true;
+  });
+  world.update_told(begun, ended, [](ProxyId, ProxyId) { return true; });
+  world.refilter();
+  world_lags = false;
 }
 
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
@@ -125,6 +162,7 @@ void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
 void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoroughly) {
   if (own && own->user_changes().empty()) return;
   few_verdicts.forget();
+  catch_up();
   all_have_begun = false;
   surroundings.forget_held();
   if (own) return own->user_changes().flush([this](ProxyId a, ProxyId b) { world.release(a, b); });
@@ -136,7 +174,7 @@ void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
   if (!computes_pairs || world_is_busy) return;
   // Before rooms, whose answer would be lost if a callback threw.
   if (own) own->flush_notifications(dispatcher);
-  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet() || are_few_still()) return;
+  if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet() || is_done_by_few(dispatcher)) return;
   or_fatal([&] { find_events(dispatcher); });
   own ? own->flush_notifications(dispatcher) : end_in_borrowed(dispatcher);
 }
@@ -151,6 +189,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
       impl->few_verdicts.forget();
     }
   } guard{this};
+  catch_up();
   bool are_told = false, are_searched = false;
   if (rooms.are_open()) {
     own->prepare(world);  // before filters are asked, for they might remove pairs

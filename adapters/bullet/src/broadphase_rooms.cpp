@@ -30,6 +30,7 @@ void Broadphase::Impl::pass_on_differing() {
     if (!rooms.differs(*proxy)) continue;
     const Box box = box_in_world(*proxy);
     pending.move(*proxy, box);
+    few_verdicts.note_move(*proxy, box);
     if (surroundings.are_kept()) surroundings.note_move(*proxy, box);
     rooms.note_passed_on(*proxy);
   }

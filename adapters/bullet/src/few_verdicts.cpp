@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <type_traits>
 
 #include <boxstream/detail/float_environment.hpp>
 
@@ -11,29 +12,44 @@
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
+
 namespace {
 
-/// With branches: verdicts are mostly those of the batch before, so that they are easy to predict.
-bool touches(const PendingChanges::Box& box, const Proxy& other) {
-  if (other.margin != 0) return overlaps(box, box_in_world(other));
-  for (int d = 0; d < 3; ++d)
-    if (!(box.min[d] <= other.m_aabbMax.m_floats[d]) || !(other.m_aabbMin.m_floats[d] <= box.max[d])) return false;
-  return true;
-}
+using LaneBits = std::conditional_t<sizeof(btScalar) == 4, std::uint32_t, std::uint64_t>;
 
-std::uint32_t position_of(const btBroadphaseProxy* proxy) {
-  return static_cast<const Proxy*>(proxy)->position;
-}
+/// A bit for each lane. A plain array, for compilers make vectors of no other.
+constexpr struct BitOfLane {
+  constexpr BitOfLane() {
+    for (std::size_t i = 0; i < FewVerdicts::most; ++i) bits[i] = LaneBits{1} << i;
+  }
+  LaneBits bits[FewVerdicts::most] = {};
+} of_lane;
 
 }  // namespace
+
+/// In a form of which compilers make vectors.
+std::uint32_t FewVerdicts::Columns::touching(const Box& box, std::uint32_t size) const {
+  const btScalar min_x = box.min[0], min_y = box.min[1], min_z = box.min[2];
+  const btScalar max_x = box.max[0], max_y = box.max[1], max_z = box.max[2];
+  const std::uint32_t lanes = (size + 7) / 8 * 8;
+  LaneBits touching = 0;
+  for (std::uint32_t i = 0; i < lanes; ++i) {
+    const bool apart = (lo[0][i] > max_x) | (min_x > hi[0][i]) | (lo[1][i] > max_y) | (min_y > hi[1][i]) |
+                       (lo[2][i] > max_z) | (min_z > hi[2][i]);
+    touching |= apart ? 0 : of_lane.bits[i];
+  }
+  return std::uint32_t(touching);
+}
 
 void FewVerdicts::note_destroyed(const Proxy& proxy, std::size_t size) {
   if (!are_known_) return;
   const std::uint32_t gone = proxy.position, last = std::uint32_t(size - 1);
-  if (held_[gone] != 0) return forget();
+  for (std::uint32_t others = held_[gone]; others != 0; others &= others - 1)
+    held_[std::countr_zero(others)] ^= bit(gone);
   const std::uint32_t last_moved = (moved_ & bit(last)) != 0 ? bit(gone) : 0;
   moved_ &= ~(bit(gone) | bit(last));
   if (gone == last) return;
+  boxes_.set(gone, boxes_.get(last));
   moved_ |= last_moved;
   held_[gone] = held_[last];
   for (std::uint32_t others = held_[last]; others != 0; others &= others - 1)
@@ -49,6 +65,7 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs) {
   }
   moved_ = 0;
   std::fill_n(held_, live.size(), 0u);
+  for (const Proxy* proxy : live) boxes_.set(proxy->position, box_in_world(*proxy));
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     const std::uint32_t a = position_of(pairs[i].m_pProxy0), b = position_of(pairs[i].m_pProxy1);
     held_[a] |= bit(b);
@@ -56,22 +73,41 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs) {
   }
 }
 
-bool FewVerdicts::touch_as_held(const Proxies& live, bool by_masks) const {
+FewVerdicts::Answer FewVerdicts::compare(const Proxies& live, bool by_masks) {
   const boxstream::detail::DefaultFloatEnvironment environment;
   const auto size = std::uint32_t(live.size());
-  const bool all_moved = moved_ == bit(size) - 1;  // each pair once is enough then
+  const std::uint32_t all = size == 0 ? 0 : ~std::uint32_t{0} >> (most - size);
+  Answer answer = Answer::nothing;
   for (std::uint32_t left = moved_; left != 0; left &= left - 1) {
     const auto mover = std::uint32_t(std::countr_zero(left));
-    const Proxy& proxy = *live[mover];
-    const PendingChanges::Box box = box_in_world(proxy);
-    if (!is_valid(box)) return false;
-    for (std::uint32_t other = all_moved ? mover + 1 : 0; other < size; ++other) {
-      const bool held = are_held(mover, other);
-      if (touches(box, *live[other]) == held || other == mover) continue;
-      if (held || !by_masks || accepts(proxy.world_filter, live[other]->world_filter)) return false;
+    const Box box = boxes_.get(mover);
+    if (!is_valid(box)) return Answer::unknown;
+    std::uint32_t changed = (boxes_.touching(box, size) & all & ~bit(mover)) ^ held_[mover];
+    for (; changed != 0; changed &= changed - 1) {
+      const auto other = std::uint32_t(std::countr_zero(changed));
+      if (!are_held(mover, other)) {
+        const Proxy &a = *live[mover], &b = *live[other];
+        if (!by_masks || a.has_new_filter() || b.has_new_filter()) return Answer::unknown;
+        if (!accepts(a.world_filter, b.world_filter)) continue;
+      }
+      if (answer == Answer::nothing) std::fill_n(changed_, size, 0u);
+      answer = Answer::pairs;
+      changed_[mover] |= bit(other);
+      changed_[other] |= bit(mover);
     }
   }
-  return true;
+  return answer;
+}
+
+void FewVerdicts::note_changes(const Proxies& live, std::vector<btBroadphasePair>& begun) {
+  begun.clear();
+  has_any_ended_ = false;
+  for (std::uint32_t a = 0; a < live.size(); ++a) {
+    for (std::uint32_t others = changed_[a] & ~held_[a] & ~(bit(a) - 1); others != 0; others &= others - 1)
+      begun.emplace_back(*live[a], *live[std::size_t(std::countr_zero(others))]);
+    has_any_ended_ |= (changed_[a] & held_[a]) != 0;
+    held_[a] ^= changed_[a];
+  }
 }
 
 void FewVerdicts::validate(const Proxies& live, PairStore& pairs, bool by_masks) const {
@@ -86,7 +122,8 @@ void FewVerdicts::validate(const Proxies& live, PairStore& pairs, bool by_masks)
     for (const Proxy* b : live) {
       if (a == b) continue;
       const bool has_moved = (moved_ & (bit(a->position) | bit(b->position))) != 0;
-      const bool touch = is_valid(box_in_world(*a)) && is_valid(box_in_world(*b)) && touches(box_in_world(*a), *b);
+      const bool touch =
+          is_valid(box_in_world(*a)) && is_valid(box_in_world(*b)) && overlaps(box_in_world(*a), box_in_world(*b));
       if (!are_held(a->position, b->position)) {
         const bool are_filters_known = by_masks && !a->has_new_filter() && !b->has_new_filter();
         check(has_moved || !touch || !are_filters_known || !accepts(a->world_filter, b->world_filter),

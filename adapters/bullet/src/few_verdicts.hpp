@@ -13,53 +13,99 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
-/// Of very few proxies, which pairs are held, a bit for each. A batch in which the boxes that have moved touch what
-/// they are held with, and nothing else, is over then. The World hears of their boxes when there is more to do, or a
-/// query.
+/// Of few proxies, the boxes in columns, and which pairs are held, a bit for each. A batch compares the boxes that have
+/// moved with all others, and says itself which pairs begin and end. The World hears of boxes with the next query, and
+/// of pairs when something happens that only it can decide.
 ///
 /// Rooms (see ProxyRooms) take no look at other boxes, but have to be made, and are left where boxes fly about. So now
 /// and then some batches in a row are searched all the same, for rooms to be tried: less and less often.
 class FewVerdicts {
  public:
   using Proxies = std::vector<Proxy*>;
+  using Box = BasicAabb<btScalar>;
 
-  static constexpr std::size_t most = 12;
+  static constexpr std::size_t most = 32;
 
   /// Until the next search.
   void forget() noexcept { are_known_ = false; }
+  bool are_known() const { return are_known_; }
+  bool are_held(const Proxy& a, const Proxy& b) const { return are_held(a.position, b.position); }
 
-  void note_move(const Proxy& proxy) { moved_ |= bit(proxy.position); }
+  /// `box` is that of the World.
+  void note_move(const Proxy& proxy, const Box& box) {
+    if (!are_known_) return;
+    boxes_.set(proxy.position, box);
+    moved_ |= bit(proxy.position);
+  }
   /// The last one of all, which is held with nothing.
-  void note_created(const Proxy& proxy) {
+  void note_created(const Proxy& proxy, const Box& box) {
     if (proxy.position >= most) return note_many();
     held_[proxy.position] = 0;
-    note_move(proxy);
+    note_move(proxy, box);
   }
-  /// Before the last one of `size` takes its place.
+  /// With all its pairs, and before the last one of `size` takes its place.
   void note_destroyed(const Proxy& proxy, std::size_t size);
 
   /// After a search that has seen all changes: `pairs` are those that are held.
   void learn(const Proxies& live, PairStore& pairs);
 
-  /// True if nothing begins or ends by what has moved since this was last asked with that answer, or learned.
-  /// `by_masks`: group and mask refuse pairs, and nothing else does. Calls `visit(proxy)` for what has moved then.
+  enum class Answer { nothing, pairs, unknown };
+
+  /// What begins and ends by what has moved since verdicts were learned, or this was last asked and had an answer.
+  /// `by_masks`: group and mask refuse pairs, and nothing else does. Calls `visit(proxy)` for what has moved if there
+  /// is an answer. If that is `pairs`, `begun` are those that begin.
   template <class Visit>
-  bool hold(const Proxies& live, bool by_masks, Visit&& visit) {
-    if (!are_known_ || !touch_as_held(live, by_masks)) return false;
+  Answer ask(const Proxies& live, bool by_masks, std::vector<btBroadphasePair>& begun, Visit&& visit) {
+    const Answer answer = are_known_ ? compare(live, by_masks) : Answer::unknown;
+    if (answer == Answer::unknown) return answer;
     for (const Proxy* proxy : live)
       if ((moved_ & bit(proxy->position)) != 0) visit(*proxy);
     moved_ = 0;
-    if (++held_batches_ == patience_) let_rooms_try();
-    return true;
+    if (answer == Answer::pairs)
+      note_changes(live, begun);
+    else if (++still_batches_ == patience_)
+      let_rooms_try();
+    return answer;
+  }
+  /// By the last answer, which was `pairs`; `pair` was held before.
+  bool has_any_ended() const { return has_any_ended_; }
+  bool has_ended(const btBroadphasePair& pair) const {
+    return (changed_[position_of(pair.m_pProxy0)] & bit(position_of(pair.m_pProxy1))) != 0;
   }
 
   /// For pairs that are settled.
   void validate(const Proxies& live, PairStore& pairs, bool by_masks) const;
 
  private:
+  /// Each bound of all boxes.
+  struct Columns {
+    void set(std::uint32_t position, const Box& box) {
+      for (int d = 0; d < 3; ++d) {
+        lo[d][position] = box.min[d];
+        hi[d][position] = box.max[d];
+      }
+    }
+    Box get(std::uint32_t position) const {
+      Box box;
+      for (int d = 0; d < 3; ++d) {
+        box.min[d] = lo[d][position];
+        box.max[d] = hi[d][position];
+      }
+      return box;
+    }
+    /// A bit for each of the first `size` boxes that touches this one; others are any.
+    std::uint32_t touching(const Box& box, std::uint32_t size) const;
+
+    btScalar lo[3][most], hi[3][most];
+  };
+
+  static std::uint32_t position_of(const btBroadphaseProxy* proxy) {
+    return static_cast<const Proxy*>(proxy)->position;
+  }
   static std::uint32_t bit(std::uint32_t position) { return 1u << position % 32; }
   bool are_held(std::uint32_t a, std::uint32_t b) const { return (held_[a] & bit(b)) != 0; }
-  bool touch_as_held(const Proxies& live, bool by_masks) const;
+  Answer compare(const Proxies& live, bool by_masks);
+  void note_changes(const Proxies& live, std::vector<btBroadphasePair>& begun);
   void note_many() noexcept {
     forget();
     searches_left_ = least_searches;
@@ -68,7 +114,7 @@ class FewVerdicts {
     forget();
     searches_left_ = least_searches + patience_ / 8;
     patience_ = patience_ < most_patience ? 2 * patience_ : patience_;
-    held_batches_ = 0;
+    still_batches_ = 0;
   }
 
   /// In these, rooms are made where boxes only tremble, and memory that many proxies took goes back.
@@ -77,9 +123,12 @@ class FewVerdicts {
 
   bool are_known_ = true;  // at first there are none
   std::uint32_t moved_ = 0;
+  Columns boxes_{};
   std::uint32_t held_[most];
-  unsigned held_batches_ = 0, patience_ = least_patience;  // since rooms were last let try, and at most
-  unsigned searches_left_ = 0;                             // before this may take part
+  std::uint32_t changed_[most];  // by the last answer
+  bool has_any_ended_ = false;
+  unsigned still_batches_ = 0, patience_ = least_patience;  // since rooms were last let try, and at most
+  unsigned searches_left_ = 0;                              // before this may take part
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

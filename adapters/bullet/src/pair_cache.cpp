@@ -91,6 +91,18 @@ void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
   removeOverlappingPairsContainingProxy(&proxy, dispatcher);
 }
 
+void PairCache::take_out_all_of(Proxy& proxy, btDispatcher* dispatcher) {
+  flush_notifications(dispatcher);
+  for (std::uint32_t end = store_.size(); holds_worlds_pairs();) {
+    end = store_.last_of(proxy, end);
+    if (end == PairStore::npos) return;
+    btBroadphasePair pair = store_.take_out(end);
+    finish_removed(pair, dispatcher);
+    end = std::min(end, store_.size());
+  }
+  remove_all_of(proxy, dispatcher);
+}
+
 void PairCache::drop_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {
   for (std::size_t i = 0; i < pending_removed_.size(); ++i) {
     if (!names(pending_removed_[i], proxy)) continue;

@@ -42,6 +42,23 @@ class PairCache final : public btOverlappingPairCache {
   /// As removeOverlappingPairsContainingProxy, for a proxy that is about to be destroyed. The World must get the
   /// changes of users before that.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
+  /// The same where the World is told of pairs later, while they are settled, and callbacks do not change them.
+  void take_out_all_of(Proxy& proxy, btDispatcher* dispatcher);
+  /// So is what ends, by `has_ended(pair)`, and what begins. May throw.
+  template <class HasEnded>
+  void end(HasEnded&& has_ended) {
+    store_.take_out(has_ended, pending_removed_);
+  }
+  void begin(std::vector<btBroadphasePair>& begun) {
+    store_.put_in(begun);
+    if (ghost_callback_ != nullptr) pending_added_.insert(pending_added_.end(), begun.begin(), begun.end());
+  }
+  /// The World is about to be told of all pairs, and asks anew about each.
+  void settle() {
+    store_.settle();
+    user_changes_ = UserChanges();
+    users_added_ = false;
+  }
   /// To be flushed to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
   /// True if the pairs are those of the World, in its order, and no notification is due.

@@ -214,6 +214,46 @@ void PairStore::restore_order() {
   is_sorted_ = true;
 }
 
+std::uint32_t PairStore::last_of(const Proxy& proxy, std::uint32_t end) {
+  splice_late();
+  const btBroadphasePair* const pairs = end == 0 ? nullptr : &pairs_[0];
+  while (end-- > 0)
+    if ((pairs[end].m_pProxy0 == &proxy) | (pairs[end].m_pProxy1 == &proxy)) return end;
+  return npos;
+}
+
+btBroadphasePair PairStore::take_out(std::uint32_t index) {
+  splice_late();
+  forget_places();
+  const btBroadphasePair taken = pairs_[int(index)];
+  for (int i = int(index) + 1; i < pairs_.size(); ++i) pairs_[i - 1] = pairs_[i];
+  pairs_.pop_back();
+  world_pairs_ = size();
+  return taken;
+}
+
+void PairStore::put_in(std::vector<btBroadphasePair>& begun) {
+  if (begun.empty()) return;
+  splice_late();
+  forget_places();
+  std::sort(begun.begin(), begun.end(), comes_before);
+  auto old = int(size());
+  grow_to(size() + begun.size());
+  auto place = int(size());
+  world_pairs_ = size();
+  for (std::size_t left = begun.size(); left > 0; pairs_[place] = begun[--left])
+    for (--place; old > 0 && comes_before(begun[left - 1], pairs_[old - 1]); --place) pairs_[place] = pairs_[--old];
+}
+
+void PairStore::settle() {
+  splice_late();
+  forget_places();
+  if (!is_settled()) std::sort(&pairs_[0], &pairs_[0] + size(), comes_before);
+  removals_.clear();
+  is_sorted_ = false;
+  world_pairs_ = size();
+}
+
 /// Few of the holes that undo_moves leaves come of the removals alone, many of a look at all pairs. Fills `gone_`.
 void PairStore::find_holes() {
   constexpr std::size_t few = 64;

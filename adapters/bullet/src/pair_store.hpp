@@ -26,7 +26,7 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 /// back of the order of before: by a pass over all, and for a second proxy since the last batch by links, which take
 /// longer to build.
 ///
-///     settled    [ pairs of the World, in its order ]
+///     settled    [ pairs of the World, in its order ]             take_out, put_in: as it will be told
 ///        | add, remove
 ///     edited     [ those, gaps filled from the back ][ added ]     removals_: the moves, to be undone
 ///        | restore_order, where something asks for it
@@ -88,6 +88,19 @@ class PairStore {
   template <class LeftOut>
   void follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
               LeftOut&& left_out);
+
+  // Without the World, while settled.
+
+  /// The last pair of the proxy before the place `end`; npos if there is none.
+  std::uint32_t last_of(const Proxy& proxy, std::uint32_t end);
+  /// Takes out one pair, or those for which `has_ended(pair)` is true, and puts in others, in any order.
+  btBroadphasePair take_out(std::uint32_t index);
+  template <class HasEnded>
+  void take_out(HasEnded&& has_ended, std::vector<btBroadphasePair>& ended);
+  void put_in(std::vector<btBroadphasePair>& begun);
+  /// From now on, settled or not: the World holds these pairs.
+  void settle();
+
   /// Gives memory back that many pairs took, after some batches with fewer.
   void give_back_unused();
   /// The same now, whatever lies idle.
@@ -163,6 +176,20 @@ void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
     visit(node / 2);
     node = next;
   }
+}
+
+template <class HasEnded>
+void PairStore::take_out(HasEnded&& has_ended, std::vector<btBroadphasePair>& ended) {
+  splice_late();
+  forget_places();
+  int kept = 0;
+  for (int i = 0; i < pairs_.size(); ++i)
+    if (has_ended(pairs_[i]))
+      ended.push_back(pairs_[i]);
+    else
+      pairs_[kept++] = pairs_[i];
+  pairs_.resizeNoInitialize(kept);
+  world_pairs_ = size();
 }
 
 template <class LeftOut>

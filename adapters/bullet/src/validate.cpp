@@ -88,7 +88,8 @@ void PairCache::validate(const BasicWorld<btScalar>& world) {
 void Broadphase::Impl::validate() {
   rooms.validate(live, world, own && own->getOverlapFilterCallback() != nullptr);
   if (!rooms.are_open()) surroundings.validate(live, world);
-  if (own && own->is_settled()) few_verdicts.validate(live, own->store(), default_rule);
+  if (own && own->is_settled() && (!rooms.are_open() || rooms.are_few()))
+    few_verdicts.validate(live, own->store(), default_rule);
   if (rooms.are_open() || all_have_begun) flush_pending();  // held pairs touch by boxes that the World may not have
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;
@@ -120,7 +121,10 @@ void Broadphase::Impl::validate() {
   for (int i = 0; i < cache->getNumOverlappingPairs(); ++i)
     check(proxies.count(pairs[i].m_pProxy0) != 0 && proxies.count(pairs[i].m_pProxy1) != 0,
           "cache: a pair of a proxy that is gone");
-  if (own) own->validate(world);
+  if (own && world_lags)
+    own->store().validate();
+  else if (own)
+    own->validate(world);
 }
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

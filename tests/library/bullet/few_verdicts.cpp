@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 #include <vector>
+
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
 
 #include "oracle.hpp"
 #include "pile.hpp"
@@ -13,7 +16,8 @@
 namespace boxstream::bullet_test {
 namespace {
 
-/// A few change in each frame: they tremble, go far, come, go, become invalid, or a user removes a pair.
+/// A few change in each frame: they tremble, go far, come, go, become invalid, a user removes a pair or adds one, or
+/// the World has to know.
 void live_on(Pile& pile, Random& random, int frame) {
   for (int times = random.below(4); times > 0 && !pile.proxies.empty(); --times) {
     const auto one = std::size_t(random.below(int(pile.proxies.size())));
@@ -21,7 +25,8 @@ void live_on(Pile& pile, Random& random, int frame) {
   }
   if (frame % 7 != 3 || pile.proxies.empty()) return;
   const auto one = std::size_t(random.below(int(pile.proxies.size())));
-  switch (random.below(6)) {
+  btOverlappingPairCache& cache = *pile.broadphase.getOverlappingPairCache();
+  switch (random.below(10)) {
     case 0:
       return pile.add(random.vector(-2, 2));
     case 1:
@@ -33,8 +38,25 @@ void live_on(Pile& pile, Random& random, int frame) {
     case 4:
       pile.remove(one);
       return pile.add(random.vector(-2, 2));
+    case 5:
+      while (!pile.proxies.empty() && random.below(6) != 0)
+        pile.remove(std::size_t(random.below(int(pile.proxies.size()))));
+      while (random.below(6) != 0) pile.add(random.vector(-2, 2));
+      return;
+    case 6: {
+      const auto other = std::size_t(random.below(int(pile.proxies.size())));
+      cache.addOverlappingPair(pile.proxies[one], pile.proxies[other]);
+      return;
+    }
+    case 7: {
+      static FunctionFilter all([](btBroadphaseProxy*, btBroadphaseProxy*) { return true; });
+      return cache.setOverlapFilterCallback(cache.getOverlapFilterCallback() == nullptr ? &all : nullptr);
+    }
+    case 8: {
+      FoundOnRay found(btVector3(-9, 0, 0), btVector3(9, 0, 0));
+      return pile.broadphase.rayTest(btVector3(-9, 0, 0), btVector3(9, 0, 0), found);
+    }
     default: {
-      btOverlappingPairCache& cache = *pile.broadphase.getOverlappingPairCache();
       if (cache.getNumOverlappingPairs() == 0) return;
       const btBroadphasePair pair = cache.getOverlappingPairArrayPtr()[cache.getNumOverlappingPairs() / 2];
       cache.removeOverlappingPair(pair.m_pProxy0, pair.m_pProxy1, nullptr);
@@ -58,7 +80,7 @@ std::vector<UidPair> expected(const Pile& pile, btScalar margin) {
 
 TEST(BulletFewVerdicts, PairsAreThoseThatTouch) {
   for (const btScalar margin : {btScalar(0), btScalar(0.0625)})
-    for (const int more : {-7, -4, 0, 3, 5}) {
+    for (const int more : {-7, -4, 0, 4, 13, 22, 24, 27}) {
       bullet::Options options;
       options.margin = margin;
       Pile pile(options, 2, std::uint64_t(8 + more));
@@ -73,6 +95,120 @@ TEST(BulletFewVerdicts, PairsAreThoseThatTouch) {
         ASSERT_NO_THROW(pile.broadphase.validate()) << frame;
       }
     }
+}
+
+/// A box leaves its room, and rooms are closed before the batch, at any time after boxes have become calm.
+TEST(BulletFewVerdicts, BoxesThatHaveLeftRoomsAreLookedAt) {
+  int with_rooms = 0;
+  for (int wild = 0; wild < 60; ++wild) {
+    Pile pile({}, 2);
+    for (int frame = 0; frame < wild; ++frame) {
+      pile.tremble(btScalar(0.05));
+      pile.calculate();
+    }
+    for (int frame = 0; frame < 60 && (frame < 10 || pile.broadphase.stats().moved != 0); ++frame) {
+      pile.tremble();
+      pile.calculate();
+    }
+    with_rooms += pile.broadphase.stats().moved == 0;
+    pile.set(0, pile.places[7] + btVector3(0, 0, btScalar(0.125)));
+    pile.add(btVector3(50, 0, 0));
+    pile.calculate();
+    pile.check("gone to another", wild);
+  }
+  EXPECT_GT(with_rooms, 10);
+}
+
+/// The array, and what ghosts hear, are those of a World, in the same order.
+TEST(BulletFewVerdicts, OrderIsThatOfMany) {
+  constexpr int more = 60;  // far away, between the first proxy and the rest
+  Pile few({}, 1), many({}, 1);
+  for (int i = 0; i < more; ++i) many.add(btVector3(btScalar(100 + 3 * i), 0, 0));
+  GhostLog of_few, of_many;
+  few.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&of_few);
+  many.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&of_many);
+  const auto events_of = [](const GhostLog& log, int added) {
+    std::vector<std::tuple<bool, int, int>> events;
+    const auto number = [added](int uid) { return uid == 1 ? uid : uid - added; };
+    for (const GhostLog::Event& event : log.events)
+      events.emplace_back(event.add, number(event.uid0), number(event.uid1));
+    return events;
+  };
+  const auto array_of = [](Pile& pile, int added) {
+    std::vector<UidPair> pairs;
+    const auto number = [added](const btBroadphaseProxy* proxy) {
+      return proxy->m_uniqueId == 1 ? 1 : proxy->m_uniqueId - added;
+    };
+    const btBroadphasePairArray& array = pile.broadphase.getOverlappingPairCache()->getOverlappingPairArray();
+    for (int i = 0; i < array.size(); ++i) pairs.emplace_back(number(array[i].m_pProxy0), number(array[i].m_pProxy1));
+    return pairs;
+  };
+  Random random(5);
+  for (int frame = 0; frame < 300; ++frame) {
+    for (int times = random.below(4); times > 0; --times) {
+      const auto one = std::size_t(random.below(int(few.proxies.size())));
+      const btVector3 place = random.vector(-1, 1);
+      const int what = random.below(3);
+      if (what == 0 && few.proxies.size() < 24) {
+        few.add(place);
+        many.add(place);
+      } else if (what == 1 && few.proxies.size() > 3) {
+        few.remove(one);
+        many.remove(one == 0 && many.proxies[0]->m_uniqueId == 1 ? 0 : one + more);
+      } else if (what == 2) {
+        few.set(one, place);
+        many.set(one == 0 && many.proxies[0]->m_uniqueId == 1 ? 0 : one + more, place);
+      }
+    }
+    few.calculate();
+    many.calculate();
+    ASSERT_EQ(array_of(few, 0), array_of(many, more)) << frame;
+    ASSERT_EQ(events_of(of_few, 0), events_of(of_many, more)) << frame;
+  }
+  EXPECT_GT(of_few.events.size(), 300u);
+  few.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(nullptr);
+  many.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(nullptr);
+}
+
+/// Others come to a ghost in a batch, then it asks for its pairs itself.
+TEST(BulletFewVerdicts, GhostsHearOfEachPairOnce) {
+  Rig rig;
+  GhostLog log;
+  rig.cache().setInternalGhostPairCallback(&log);
+  btGhostObject ghost;
+  btBroadphaseProxy* const at_ghost = rig.create_for(&ghost, cube(0, 0, 0));
+  btBroadphaseProxy* const at_box = rig.create(cube(5, 0, 0));
+  for (int frame = 0; frame < 20; ++frame) {
+    rig.move(at_box, cube(frame % 4 < 2 ? btScalar(0.5) : 5, 0, 0));
+    rig.calculate();
+    rig.move(at_ghost, cube(0, btScalar(0.01) * btScalar(frame % 3), 0));
+    EXPECT_EQ(rig.pair_count(), frame % 4 < 2 ? 1 : 0) << frame;
+  }
+  EXPECT_EQ(log.adds(), 5);
+  rig.cache().setInternalGhostPairCallback(nullptr);
+}
+
+/// The World has a pair that has ended since, and verdicts are forgotten at some time before the proxy goes.
+TEST(BulletFewVerdicts, PairsOfTheWorldEndWithTheirProxy) {
+  for (int still = 0; still < 60; ++still) {
+    Pile pile({}, 2);
+    for (int frame = 0; frame < 40; ++frame) {
+      pile.tremble();
+      pile.calculate();
+    }
+    pile.set(0, btVector3(50, 0, 0));
+    pile.calculate();
+    for (int frame = 0; frame < still; ++frame) {
+      pile.set(0, btVector3(50, 0, btScalar(frame % 2)));
+      pile.calculate();
+    }
+    pile.remove(0);
+    for (int frame = 0; frame < 40; ++frame) {
+      pile.tremble();
+      pile.calculate();
+      pile.check("after it has gone", still);
+    }
+  }
 }
 
 TEST(BulletFewVerdicts, FiltersThatUsersWriteAreSeen) {

@@ -277,9 +277,9 @@ TEST(BulletMisuse, EmptyOwnCacheAnswers) {
 TEST(BulletMisuse, SortsWhenAsked) {
   Rig rig;
   std::vector<btBroadphaseProxy*> row;
-  for (int i = 0; i < 20; ++i) row.push_back(rig.create(cube(btScalar(i) / 4, 0, 0)));
+  for (int i = 0; i < 50; ++i) row.push_back(rig.create(cube(btScalar(i) / 4, 0, 0)));
   rig.calculate();
-  for (std::size_t i = 0; i < 20; i += 5) rig.destroy(row[i]);
+  for (std::size_t i = 0; i < 50; i += 5) rig.destroy(row[i]);
   EXPECT_NE(rig.pairs(), sorted(rig.pairs())) << "removals take the last pair to the free place";
   rig.cache().sortOverlappingPairs(&rig.dispatcher);
   EXPECT_EQ(rig.pairs(), sorted(rig.pairs()));
