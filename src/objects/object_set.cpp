@@ -11,8 +11,10 @@
 #include <boxstream/detail/float_environment.hpp>
 
 #include "base/has_order.hpp"
+#include "base/lazy_float_environment.hpp"
 #include "base/thresholds.hpp"
 #include "bvh/overlap_walk.hpp"
+#include "objects/few_objects.hpp"
 #include "objects/impl.hpp"
 #include "world/state/proxies.hpp"
 
@@ -23,13 +25,6 @@ namespace {
 // A search for all pairs takes as long as 20 to 50 rows.
 constexpr std::uint64_t rows_after_early_stop = 16;
 constexpr std::uint64_t rows_after_full_visit = 1;
-
-/// `overlaps` without branches: which of the six comparisons fails first is unpredictable.
-template <class S>
-bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
-  return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
-         (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
-}
 
 }  // namespace
 
@@ -51,10 +46,16 @@ void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is
   forget_first_pair();
 }
 
+/// Few objects have no gaps among them, so that what each query takes is a matter of how many there are.
 template <class S>
 void BasicObjectSet<S>::remove(Place place) noexcept {
-  table_.remove(place);
   forget_first_pair();
+  if (table_.size() <= detail::thresholds.scanned_objects + 1) {
+    table_.take_out(place);
+    forget_views();
+    return;
+  }
+  table_.remove(place);
   if (table_.gaps() <= detail::thresholds.most_gaps + table_.size() / 2) return;
   try {
     close_gaps();
@@ -102,11 +103,16 @@ void BasicObjectSet<S>::shrink_to_fit() {
 }
 
 template <class S>
+void BasicObjectSet<S>::forget_views() noexcept {
+  Impl* const made = impl_.made();
+  if (made == nullptr) return;
+  made->index.forget(known_);
+  made->pairs.clear();
+}
+
+template <class S>
 void BasicObjectSet<S>::clear() noexcept {
-  if (Impl* const made = impl_.made()) {
-    made->index.forget(known_);
-    made->pairs.clear();
-  }
+  forget_views();
   table_.clear();
   forget_first_pair();
 }
@@ -121,7 +127,7 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
   if (!detail::has_order(box)) return true;
   for (Place place = first; place < table_.places(); ++place)
     // An unbounded box seems to touch inverted boxes, gaps included.
-    if (touch(boxes[place], box) && detail::has_order(boxes[place]) && filter_test(place) &&
+    if (detail::touch(boxes[place], box) && detail::has_order(boxes[place]) && filter_test(place) &&
         !environment.outside([&] { return visit(place); }))
       return false;
   return true;
@@ -129,10 +135,17 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
 
 template <class S>
 void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
-  if (table_.size() == 0) return;
-  const bool are_few = table_.size() <= detail::thresholds.scanned_objects;
-  if (!are_few && !detail::has_valid_keys(box)) return;
-  if (are_few || scans_next(table_.places())) {
+  if (table_.size() <= detail::most_of_few) {
+    const auto touching = [&] {
+      const detail::LazyFloatEnvironment environment;
+      return detail::few_touching(table_, 0, box, filter);
+    };
+    for (std::uint64_t left = touching(); left != 0; left &= left - 1)
+      if (!visit(static_cast<Place>(std::countr_zero(left)))) return;
+    return;
+  }
+  if (!detail::has_valid_keys(box)) return;
+  if (scans_next(table_.places())) {
     scan(0, box, filter, visit);
     return;
   }
@@ -153,8 +166,8 @@ void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order or
   });
 }
 
-/// Visits a pair if the filters accept it, unless it is the one that was known from the beginning. The first pair is
-/// kept for the next query, which may stop there.
+/// Visits a pair that touches if the filters accept it, unless it is the one that was known from the beginning. The
+/// first pair is kept for the next query, which may stop there.
 template <class S>
 inline bool BasicObjectSet<S>::visit_known(Place row, Place column, std::uint64_t& known, VisitPair visit) const {
   const std::uint64_t number = detail::number_of_pair(row, column);
@@ -163,27 +176,16 @@ inline bool BasicObjectSet<S>::visit_known(Place row, Place column, std::uint64_
   return visit(row, column);
 }
 
-/// All places are compared one by one.
+/// All are compared one by one.
 template <class S>
 void BasicObjectSet<S>::visit_very_few(VisitPair visit) const {
-  constexpr std::size_t most = detail::thresholds.scanned_objects;
-  static_assert(most * most <= 64);
-  std::uint64_t known = first_pair_.load(std::memory_order_relaxed), pairs = 0;
+  std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
   if (known != 0 && !visit(static_cast<Place>(known >> 32), static_cast<Place>(known))) return;
-  {
-    const detail::DefaultFloatEnvironment environment;
-    for (Place row = 0; row < table_.places(); ++row) {
-      const Box& box = table_.box(row);
-      if (!is_valid(box)) continue;
-      for (Place column = row + 1; column < table_.places(); ++column)
-        if (touch(box, table_.box(column)) && is_valid(table_.box(column)))
-          pairs |= std::uint64_t{1} << (most * row + column);
-    }
-  }
-  for (; pairs != 0; pairs &= pairs - 1) {
-    const auto bit = static_cast<Place>(std::countr_zero(pairs));
-    if (!visit_known(bit / most, bit % most, known, visit)) return;
-  }
+  const auto pairs = [&] {
+    const detail::LazyFloatEnvironment environment;
+    return detail::few_pairs(table_);
+  };
+  detail::for_each_of_few(pairs(), [&](Place row, Place column) { return visit_known(row, column, known, visit); });
 }
 
 template <class S>
@@ -267,7 +269,7 @@ template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
   const bool is_planned = options_.method == Method::planned;
-  if (is_planned && table_.places() <= detail::thresholds.scanned_objects) return visit_very_few(visit);
+  if (is_planned && table_.size() <= detail::thresholds.scanned_objects) return visit_very_few(visit);
   if (is_planned && table_.size() <= detail::thresholds.few_objects) return visit_few(visit);
   Impl& impl = this->impl();
   Place first = 0;
@@ -308,6 +310,14 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
   const Table& rows = table_;
   const Table& columns = other.table_;
   if (rows.size() == 0 || columns.size() == 0) return;
+  if (options_.method == Method::planned && rows.size() <= detail::most_of_few &&
+      columns.size() <= detail::most_of_few) {
+    const auto pairs = [&] {
+      const detail::LazyFloatEnvironment environment;
+      return detail::few_pairs(rows, columns);
+    };
+    return detail::for_each_of_few(pairs(), visit);
+  }
   if (order == Order::places) {
     visit_rows(0, rows.places(), other, visit);
     return;

@@ -99,6 +99,25 @@ class ObjectTable {
     note(place);
   }
 
+  /// Removes an object and closes all gaps. Places change, and views have to be made anew. For few objects, as all that
+  /// follow are moved.
+  void take_out(Place place) noexcept {
+    place_table_.erase(place, objects_);
+    objects_[place] = nullptr;
+    Place count = 0;
+    for (Place from = 0; from < places(); ++from) {
+      if (objects_[from] == nullptr) continue;
+      if (count != from) {
+        place_table_.rename(from, count, objects_);
+        for_each_array([&](auto& of) { of[count] = of[from]; });
+      }
+      ++count;
+    }
+    for_each_array([count](auto& of) { of.resize(count); });
+    size_ = count;
+    forget_changes();
+  }
+
   /// False if it is the box that it had, bit for bit.
   bool set_box(Place place, const Box& box) noexcept {
     if (is_same(boxes_[place], box)) return false;
