@@ -8,13 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include <boxstream/detail/few_objects.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/has_order.hpp>
 
-#include "base/has_order.hpp"
-#include "base/lazy_float_environment.hpp"
 #include "base/thresholds.hpp"
 #include "bvh/overlap_walk.hpp"
-#include "objects/few_objects.hpp"
 #include "objects/impl.hpp"
 #include "world/state/proxies.hpp"
 
@@ -50,7 +49,7 @@ void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is
 template <class S>
 void BasicObjectSet<S>::remove(Place place) noexcept {
   forget_first_pair();
-  if (table_.size() <= detail::thresholds.scanned_objects + 1) {
+  if (table_.size() <= detail::most_of_few + 1) {
     table_.take_out(place);
     forget_views();
     return;
@@ -134,16 +133,7 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
 }
 
 template <class S>
-void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
-  if (table_.size() <= detail::most_of_few) {
-    const auto touching = [&] {
-      const detail::LazyFloatEnvironment environment;
-      return detail::few_touching(table_, 0, box, filter);
-    };
-    for (std::uint64_t left = touching(); left != 0; left &= left - 1)
-      if (!visit(static_cast<Place>(std::countr_zero(left)))) return;
-    return;
-  }
+void BasicObjectSet<S>::visit_overlaps(const Box& box, Filter filter, Order order, Visit visit) const {
   if (!detail::has_valid_keys(box)) return;
   if (scans_next(table_.places())) {
     scan(0, box, filter, visit);
@@ -181,11 +171,8 @@ template <class S>
 void BasicObjectSet<S>::visit_very_few(VisitPair visit) const {
   std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
   if (known != 0 && !visit(static_cast<Place>(known >> 32), static_cast<Place>(known))) return;
-  const auto pairs = [&] {
-    const detail::LazyFloatEnvironment environment;
-    return detail::few_pairs(table_);
-  };
-  detail::for_each_of_few(pairs(), [&](Place row, Place column) { return visit_known(row, column, known, visit); });
+  detail::visit_few_pairs(table_, table_,
+                          [&](Place row, Place column) { return visit_known(row, column, known, visit); });
 }
 
 template <class S>
@@ -269,7 +256,7 @@ template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
   const bool is_planned = options_.method == Method::planned;
-  if (is_planned && table_.size() <= detail::thresholds.scanned_objects) return visit_very_few(visit);
+  if (is_planned && table_.size() <= detail::most_of_few) return visit_very_few(visit);
   if (is_planned && table_.size() <= detail::thresholds.few_objects) return visit_few(visit);
   Impl& impl = this->impl();
   Place first = 0;
@@ -306,18 +293,9 @@ void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
 }
 
 template <class S>
-void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, VisitPair visit) const {
+void BasicObjectSet<S>::visit_pairs(const BasicObjectSet& other, Order order, VisitPair visit) const {
   const Table& rows = table_;
   const Table& columns = other.table_;
-  if (rows.size() == 0 || columns.size() == 0) return;
-  if (options_.method == Method::planned && rows.size() <= detail::most_of_few &&
-      columns.size() <= detail::most_of_few) {
-    const auto pairs = [&] {
-      const detail::LazyFloatEnvironment environment;
-      return detail::few_pairs(rows, columns);
-    };
-    return detail::for_each_of_few(pairs(), visit);
-  }
   if (order == Order::places) {
     visit_rows(0, rows.places(), other, visit);
     return;
@@ -349,7 +327,7 @@ bool BasicObjectSet<S>::asks_by_rows(const BasicObjectSet& other) const {
   const bool has_more = table_.size() > other.table_.size();
   const BasicObjectSet &larger = has_more ? *this : other, &smaller = has_more ? other : *this;
   const auto is_ready = [](const BasicObjectSet& set) {
-    return set.table_.size() <= detail::thresholds.scanned_objects || set.known_.are_of(set.table_);
+    return set.table_.size() <= detail::most_of_few || set.known_.are_of(set.table_);
   };
   const std::uint64_t more = query * (larger.table_.size() - smaller.table_.size()) +
                              (is_ready(smaller) ? 0 : refresh * smaller.table_.size());
