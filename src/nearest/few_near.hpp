@@ -48,11 +48,13 @@ class FewNear {
   /// Numbers are different, and below `most`.
   void add(unsigned number, S squared) { keys_[count_++] = NearLanes<S>::key_at(squared, number); }
 
-  /// The first one that touches, or `most`.
-  unsigned touching() const {
-    unsigned i = 0;
-    while (i < count_ && NearLanes<S>::squared_of(keys_[i]) != 0) ++i;
-    return i < count_ ? NearLanes<S>::lane_of(keys_[i]) : unsigned{most};
+  /// One that is nearer than the limit and has none before it, as it touches or is alone; or `most`.
+  unsigned first(const NearLimit<S>& limit) const {
+    for (unsigned i = 0; i < count_; ++i) {
+      const S squared = NearLanes<S>::squared_of(keys_[i]);
+      if (count_ == 1 ? limit.is_clearly_above(squared) : squared == 0) return NearLanes<S>::lane_of(keys_[i]);
+    }
+    return most;
   }
 
   /// Calls `visit(number)` for those nearer than the limit, nearest first, about. It returns the limit from now on.

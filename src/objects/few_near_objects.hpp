@@ -55,9 +55,9 @@ class FewNearPairs {
     }
   }
 
-  /// The number of a pair that touches, or `none`.
-  std::uint64_t touching(std::uint64_t none) const {
-    const unsigned i = near_.touching();
+  /// The number of one that is nearer than the limit and comes first, or `none`.
+  std::uint64_t first(const NearLimit<S>& limit, std::uint64_t none) const {
+    const unsigned i = near_.first(limit);
     return i < near_.count() ? number_of_pair(pairs_[i].row, pairs_[i].column) : none;
   }
 

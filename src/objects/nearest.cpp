@@ -194,15 +194,16 @@ void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, Vi
   if (detail::has_order(box)) detail::visit_near(box, bvh, visits);
 }
 
-/// All pairs of the set, or with all of another one. One that touches is kept for the next query, which it often ends;
-/// without one the nearest comes first anyway.
+/// All pairs of the set, or with all of another one. One that touches, and often ends the query, is kept for the next
+/// one, and one that is alone; else the nearest comes first anyway.
 template <class S>
 void BasicObjectSet<S>::visit_near_few(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
   Beginning<S> begin(&other == this ? near_within_ : near_other_,
                      {other.number_, table_.last_change(), other.table_.last_change()}, limit, visit);
-  if (begin.is_all()) return;
+  const bool is_one = table_.size() + other.table_.size() == (&other == this ? 4 : 2);
+  if (begin.is_all() || (is_one && begin.has_visited())) return;
   detail::FewNearPairs<S> pairs(table_, other.table_, begin.visited());
-  if (!begin.is_known()) begin.keep(pairs.touching(detail::KnownFirst::unknown));
+  if (!begin.is_known()) begin.keep(pairs.first(begin.limit(), detail::KnownFirst::unknown));
   pairs.visit(begin.limit(), visit);
 }
 

@@ -113,7 +113,7 @@ class ObjectTable {
       }
       ++count;
     }
-    for_each_array([count](auto& of) { of.resize(count); });
+    for_each_array([count](auto& of) { of.erase(of.begin() + static_cast<std::ptrdiff_t>(count), of.end()); });
     size_ = count;
     forget_changes();
   }
