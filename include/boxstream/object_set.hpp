@@ -182,6 +182,7 @@ class BOXSTREAM_API BasicObjectSet {
   BOXSTREAM_LOCAL Place scan_rows(VisitPair visit, bool& going_on) const;
   BOXSTREAM_LOCAL void close_gaps();
   BOXSTREAM_LOCAL void forget_views() noexcept;
+  BOXSTREAM_LOCAL bool joins(const BasicObjectSet& other) const;
   BOXSTREAM_LOCAL bool asks_by_rows(const BasicObjectSet& other) const;
   BOXSTREAM_LOCAL void visit_very_few(VisitPair visit) const;
   BOXSTREAM_LOCAL void visit_few(VisitPair visit) const;
