@@ -12,8 +12,8 @@
 
 namespace boxstream::detail {
 
-/// Of which compilers do not know that it is zero: they make a branch of a choice between a number and zero that is then
-/// squared, and which of two boxes comes first on an axis is unpredictable.
+/// Zero, but compilers do not know it: they make a branch of a choice between zero and a number that is then squared,
+/// and which of two boxes comes first on an axis is unpredictable.
 template <class S>
 S some_zero() {
   S zero = 0;
@@ -50,11 +50,11 @@ class FewNear {
 
   /// One that is nearer than the limit and has none before it, as it touches or is alone; or `most`.
   unsigned first(const NearLimit<S>& limit) const {
-    for (unsigned i = 0; i < count_; ++i) {
-      const S squared = NearLanes<S>::squared_of(keys_[i]);
-      if (count_ == 1 ? limit.is_clearly_above(squared) : squared == 0) return NearLanes<S>::lane_of(keys_[i]);
-    }
-    return most;
+    if (count_ == 1 && limit.is_clearly_above(NearLanes<S>::squared_of(keys_[0])))
+      return NearLanes<S>::lane_of(keys_[0]);
+    unsigned i = 0;
+    while (i < count_ && keys_[i] > NearLanes<S>::lane_bits) ++i;
+    return i < count_ ? NearLanes<S>::lane_of(keys_[i]) : unsigned{most};
   }
 
   /// Calls `visit(number)` for those nearer than the limit, nearest first, about. It returns the limit from now on.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include <boxstream/detail/few_objects.hpp>
 #include <boxstream/detail/has_order.hpp>
 #include <boxstream/detail/lazy_float_environment.hpp>
 #include <boxstream/detail/object_table.hpp>
@@ -24,6 +25,7 @@ S outside_distance_below(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 /// The objects nearer to a box than the limit; `visit(place)` returns the limit from now on.
 template <class S, class Visit>
 void visit_few_near(const ObjectTable<S>& table, const BasicAabb<S>& box, Filter filter, S limit, const Visit& visit) {
+  static_assert(most_of_few <= FewNear<S>::most);
   FewNear<S> near;
   {
     const LazyFloatEnvironment environment;

@@ -32,7 +32,10 @@ template <class S, class Is>
 unsigned find_few(const ObjectTable<S>& table, std::uint32_t first, Is&& is) {
   const BasicAabb<S>* const boxes = table.boxes().data();
   unsigned found = 0;
-  for (std::uint32_t place = first; place < table.size(); ++place) found |= static_cast<unsigned>(is(boxes[place])) << place;
+  for (std::uint32_t place = first; place < table.size(); ++place) {
+    const unsigned one = is(boxes[place]);
+    found |= one << place;
+  }
   return found;
 }
 
@@ -60,8 +63,10 @@ void visit_few_overlaps(const ObjectTable<S>& table, const BasicAabb<S>& box, Fi
   unsigned found;
   {
     const LazyFloatEnvironment environment;
-    // An unbounded box seems to touch inverted ones.
-    found = find_few(table, 0, [&](const BasicAabb<S>& other) { return touch(other, box) & has_order(other); });
+    found = find_few(table, 0, [&](const BasicAabb<S>& other) {
+      const bool touches = touch(other, box), is_box = has_order(other);
+      return touches & is_box;  // an unbounded box seems to touch inverted ones
+    });
     if (!has_order(box)) found = 0;
   }
   visit_few(found, [&](std::uint32_t place) { return !accepts(filter, table.filter(place)) || visit(place); });
@@ -78,8 +83,8 @@ void visit_few_pairs(const ObjectTable<S>& rows, const ObjectTable<S>& columns, 
     const unsigned ordered = find_few(columns, 0, has_order<S>);
     for (std::uint32_t row = 0; row < rows.size(); ++row) {
       const BasicAabb<S>& box = rows.box(row);
-      found[row] = find_few(columns, is_same ? row + 1 : 0, [&](const BasicAabb<S>& other) { return touch(box, other); });
-      found[row] &= has_order(box) ? ordered : 0;
+      const auto touches = [&](const BasicAabb<S>& other) { return touch(box, other); };
+      found[row] = find_few(columns, is_same ? row + 1 : 0, touches) & (has_order(box) ? ordered : 0);
     }
   }
   for (std::uint32_t row = 0; row < rows.size(); ++row)

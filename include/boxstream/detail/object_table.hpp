@@ -29,7 +29,7 @@ inline bool is_same(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 
 /// Objects in order of registration, with the boxes last read, and a log of changes by which views of the table are
 /// brought up to date. Objects are addresses, never dereferenced. A place is an index into the table. Removed objects
-/// leave gaps.
+/// leave gaps, unless they are taken out.
 template <class S>
 class ObjectTable {
  public:
