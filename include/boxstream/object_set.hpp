@@ -8,6 +8,7 @@
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/detail/export.hpp>
+#include <boxstream/detail/few_objects.hpp>
 #include <boxstream/detail/float_environment.hpp>
 #include <boxstream/detail/known_first.hpp>
 #include <boxstream/detail/made_once.hpp>
@@ -131,11 +132,25 @@ class BOXSTREAM_API BasicObjectSet {
 
   /// Objects that touch `box` and whose filters accept `filter`. This query and the next ones end when a visitor
   /// returns false.
-  void for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const;
+  template <class Visitor>
+  void for_each_overlap(const Box& box, Filter filter, Order order, Visitor&& visit) const {
+    if (table_.size() <= detail::most_of_few)
+      detail::visit_few_overlaps(table_, box, filter, visit);
+    else
+      visit_overlaps(box, filter, order, visit);
+  }
   /// All pairs.
   void for_each_pair(VisitPair visit) const;
   /// Pairs of an object of this set and one of `other`, which must be another set.
-  void for_each_pair(const BasicObjectSet& other, Order order, VisitPair visit) const;
+  template <class Visitor>
+  void for_each_pair(const BasicObjectSet& other, Order order, Visitor&& visit) const {
+    if (table_.size() == 0 || other.table_.size() == 0) return;
+    const bool are_few = table_.size() <= detail::most_of_few && other.table_.size() <= detail::most_of_few;
+    if (are_few && options_.method == Method::planned)
+      detail::visit_few_pairs(table_, other.table_, visit);
+    else
+      visit_pairs(other, order, visit);
+  }
 
   /// Return the limit of distances from now on. Zero, negative numbers and NaN end the query. After a higher limit than
   /// before, objects that were left out may stay out.
@@ -161,9 +176,13 @@ class BOXSTREAM_API BasicObjectSet {
   BOXSTREAM_LOCAL Impl& impl() const;
   BOXSTREAM_LOCAL bool scans_next(std::uint64_t boxes) const;
   BOXSTREAM_LOCAL const detail::Bvh<S>& fresh_index() const;
+  void visit_overlaps(const Box& box, Filter filter, Order order, Visit visit) const;
+  void visit_pairs(const BasicObjectSet& other, Order order, VisitPair visit) const;
   BOXSTREAM_LOCAL bool scan(Place first, const Box& box, Filter filter, Visit visit) const;
   BOXSTREAM_LOCAL Place scan_rows(VisitPair visit, bool& going_on) const;
   BOXSTREAM_LOCAL void close_gaps();
+  BOXSTREAM_LOCAL void forget_views() noexcept;
+  BOXSTREAM_LOCAL bool joins(const BasicObjectSet& other) const;
   BOXSTREAM_LOCAL bool asks_by_rows(const BasicObjectSet& other) const;
   BOXSTREAM_LOCAL void visit_very_few(VisitPair visit) const;
   BOXSTREAM_LOCAL void visit_few(VisitPair visit) const;

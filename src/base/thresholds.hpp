@@ -232,8 +232,8 @@ struct Thresholds {
 
   // Sets of objects.
 
-  /// Up to here the boxes of objects are compared one by one, without an index, and so many pairs of near ones.
-  std::size_t scanned_objects = 8, near_tests = 6;
+  /// Up to here pairs of near objects are compared one by one.
+  std::size_t near_tests = 6;
   /// Up to here all boxes are compared with all in blocks. No more than FewPairs::most.
   std::size_t few_objects = 128;
   std::size_t few_near_objects = 64;
@@ -357,10 +357,9 @@ inline constexpr Thresholds small_thresholds = {
     .visits = 8,
     .few_planes = 2,
     .few_nearest = 2,
-    .scanned_objects = 2,
     .near_tests = 4,
-    .few_objects = 8,
-    .few_near_objects = 8,
+    .few_objects = 16,
+    .few_near_objects = 16,
     .first_near_blocks = 2,
     .first_near_opened = 2,
     .few_without_tree = 4,

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/has_order.hpp>
+#include <boxstream/detail/lazy_float_environment.hpp>
 
-#include "base/has_order.hpp"
 #include "base/keys.hpp"
-#include "base/lazy_float_environment.hpp"
 #include "base/thresholds.hpp"
-#include "nearest/few_near.hpp"
 #include "nearest/nearest_walk.hpp"
+#include "objects/few_near_objects.hpp"
 #include "objects/impl.hpp"
 
 namespace boxstream {
@@ -69,28 +69,6 @@ template <class S>
 struct Side {
   const detail::ObjectTable<S>& table;
   const std::uint32_t* places;
-};
-
-/// The places of the valid boxes of a very small table, below `places`, in order. In the default environment.
-template <class S>
-class ValidPlaces {
- public:
-  ValidPlaces(const detail::ObjectTable<S>& table, std::uint32_t places) {
-    std::size_t count = 0;
-    for (std::uint32_t place = 0; place < places; ++place) {
-      places_[count] = place;
-      count += detail::has_order(table.box(place));
-    }
-    count_ = count;
-  }
-
-  std::size_t count() const { return count_; }
-  std::uint32_t operator[](std::size_t i) const { return places_[i]; }
-  const std::uint32_t* data() const { return places_; }
-
- private:
-  std::size_t count_;
-  std::uint32_t places_[detail::thresholds.near_tests + 1];
 };
 
 /// The places of two boxes of a walk, in order if they are of one table.
@@ -177,12 +155,13 @@ class Beginning {
       detail::NearVisits<S, NearestOffer<S>> visits(limit_, mine, theirs, nearest);
       walk(visits);
     }
-    begin_with(nearest);
+    keep(first_ = nearest);
+    visit_first();
   }
   bool is_known() const { return first_ != detail::KnownFirst::unknown; }
-  void begin_with(std::uint64_t pair) {
-    known_.keep(of_, first_ = pair);
-    visit_first();
+  /// For the next query.
+  void keep(std::uint64_t pair) {
+    if (pair != detail::KnownFirst::unknown) known_.keep(of_, pair);
   }
 
   const detail::NearLimit<S>& limit() const { return limit_; }
@@ -209,49 +188,23 @@ class Beginning {
 
 template <class S>
 void BasicObjectSet<S>::for_each_near(const Box& box, Filter filter, S limit, VisitNear visit) const {
-  if (table_.size() == 0) return;
-  constexpr std::size_t few = detail::thresholds.scanned_objects;
-  if (table_.size() <= few) {
-    const detail::LivePlaces<S, few> places(table_);
-    detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, places.data(), box, filter, visit);
-    const auto box_of = [&](std::size_t i) -> const Box& { return table_.box(places[i]); };
-    if (detail::has_order(box)) detail::visit_near_few(box, places.count(), box_of, visits);
-    return;
-  }
+  if (table_.size() <= detail::most_of_few) return detail::visit_few_near(table_, box, filter, limit, visit);
   const detail::Bvh<S>& bvh = fresh_index();
   detail::NearVisits<S, BoxOffer<S>> visits(limit, table_, bvh.slots(), box, filter, visit);
   if (detail::has_order(box)) detail::visit_near(box, bvh, visits);
 }
 
-/// All pairs of the set, or with all of another one.
+/// All pairs of the set, or with all of another one. One that touches, and often ends the query, is kept for the next
+/// one, and one that is alone; else the nearest comes first anyway.
 template <class S>
 void BasicObjectSet<S>::visit_near_few(const BasicObjectSet& other, S limit, VisitNearPair visit) const {
-  const bool is_same = &other == this;
-  Beginning<S> begin(is_same ? near_within_ : near_other_,
+  Beginning<S> begin(&other == this ? near_within_ : near_other_,
                      {other.number_, table_.last_change(), other.table_.last_change()}, limit, visit);
-  const bool is_one_pair = table_.size() + other.table_.size() == (is_same ? 4 : 2);
-  if (begin.is_all() || (is_one_pair && begin.has_visited())) return;
-  detail::LazyFloatEnvironment environment;
-  const ValidPlaces<S> mine(table_, table_.places()), others(other.table_, is_same ? 0 : other.table_.places());
-  const ValidPlaces<S>& theirs = is_same ? mine : others;
-  detail::FewNear<S> pairs;
-  for (std::uint32_t a = 0; a < mine.count(); ++a)
-    for (std::uint32_t b = is_same ? a + 1 : 0; b < theirs.count(); ++b)
-      pairs.add(a, table_.box(mine[a]), b, other.table_.box(theirs[b]));
-  // The nearest comes first anyway. One that touches often ends the query.
-  const auto is_first = [&](const detail::NearPlaces& at, S squared) {
-    return (is_one_pair ? begin.limit().is_clearly_above(squared) : squared == 0) &&
-           accepts(table_.filter(mine[at.a]), other.table_.filter(theirs[at.b]));
-  };
-  const detail::NearPlaces* const at = begin.is_known() ? nullptr : pairs.find(is_first);
-  environment.go_out();
-  if (at != nullptr) {
-    begin.begin_with(detail::number_of_pair(mine[at->a], theirs[at->b]));
-    if (begin.is_all() || is_one_pair) return;
-  }
-  const Side<S> my_side{table_, mine.data()}, their_side{other.table_, theirs.data()};
-  detail::NearVisits<S, PairOffer<S>> visits(begin.limit(), my_side, their_side, visit, begin.visited());
-  pairs.visit(visits);
+  const bool is_one = table_.size() + other.table_.size() == (&other == this ? 4 : 2);
+  if (begin.is_all() || (is_one && begin.has_visited())) return;
+  detail::FewNearPairs<S> pairs(table_, other.table_, begin.visited());
+  if (!begin.is_known()) begin.keep(pairs.first(begin.limit(), detail::KnownFirst::unknown));
+  pairs.visit(begin.limit(), visit);
 }
 
 template <class S>

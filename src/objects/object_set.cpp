@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include <boxstream/detail/few_objects.hpp>
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/has_order.hpp>
 
-#include "base/has_order.hpp"
 #include "base/thresholds.hpp"
 #include "bvh/overlap_walk.hpp"
 #include "objects/impl.hpp"
@@ -23,13 +24,6 @@ namespace {
 // A search for all pairs takes as long as 20 to 50 rows.
 constexpr std::uint64_t rows_after_early_stop = 16;
 constexpr std::uint64_t rows_after_full_visit = 1;
-
-/// `overlaps` without branches: which of the six comparisons fails first is unpredictable.
-template <class S>
-bool touch(const BasicAabb<S>& a, const BasicAabb<S>& b) {
-  return (a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) &
-         (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]);
-}
 
 }  // namespace
 
@@ -51,10 +45,16 @@ void BasicObjectSet<S>::add(void* object, const Box& box, Filter filter, bool is
   forget_first_pair();
 }
 
+/// Few objects have no gaps among them, so that what each query takes is a matter of how many there are.
 template <class S>
 void BasicObjectSet<S>::remove(Place place) noexcept {
-  table_.remove(place);
   forget_first_pair();
+  if (table_.size() <= detail::most_of_few + 1) {
+    table_.take_out(place);
+    forget_views();
+    return;
+  }
+  table_.remove(place);
   if (table_.gaps() <= detail::thresholds.most_gaps + table_.size() / 2) return;
   try {
     close_gaps();
@@ -102,11 +102,16 @@ void BasicObjectSet<S>::shrink_to_fit() {
 }
 
 template <class S>
+void BasicObjectSet<S>::forget_views() noexcept {
+  Impl* const made = impl_.made();
+  if (made == nullptr) return;
+  made->index.forget(known_);
+  made->pairs.clear();
+}
+
+template <class S>
 void BasicObjectSet<S>::clear() noexcept {
-  if (Impl* const made = impl_.made()) {
-    made->index.forget(known_);
-    made->pairs.clear();
-  }
+  forget_views();
   table_.clear();
   forget_first_pair();
 }
@@ -121,18 +126,16 @@ bool BasicObjectSet<S>::scan(Place first, const Box& box, Filter filter, Visit v
   if (!detail::has_order(box)) return true;
   for (Place place = first; place < table_.places(); ++place)
     // An unbounded box seems to touch inverted boxes, gaps included.
-    if (touch(boxes[place], box) && detail::has_order(boxes[place]) && filter_test(place) &&
+    if (detail::touch(boxes[place], box) && detail::has_order(boxes[place]) && filter_test(place) &&
         !environment.outside([&] { return visit(place); }))
       return false;
   return true;
 }
 
 template <class S>
-void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order order, Visit visit) const {
-  if (table_.size() == 0) return;
-  const bool are_few = table_.size() <= detail::thresholds.scanned_objects;
-  if (!are_few && !detail::has_valid_keys(box)) return;
-  if (are_few || scans_next(table_.places())) {
+void BasicObjectSet<S>::visit_overlaps(const Box& box, Filter filter, Order order, Visit visit) const {
+  if (!detail::has_valid_keys(box)) return;
+  if (scans_next(table_.places())) {
     scan(0, box, filter, visit);
     return;
   }
@@ -153,8 +156,8 @@ void BasicObjectSet<S>::for_each_overlap(const Box& box, Filter filter, Order or
   });
 }
 
-/// Visits a pair if the filters accept it, unless it is the one that was known from the beginning. The first pair is
-/// kept for the next query, which may stop there.
+/// Visits a pair that touches if the filters accept it, unless it is the one that was known from the beginning. The
+/// first pair is kept for the next query, which may stop there.
 template <class S>
 inline bool BasicObjectSet<S>::visit_known(Place row, Place column, std::uint64_t& known, VisitPair visit) const {
   const std::uint64_t number = detail::number_of_pair(row, column);
@@ -163,27 +166,13 @@ inline bool BasicObjectSet<S>::visit_known(Place row, Place column, std::uint64_
   return visit(row, column);
 }
 
-/// All places are compared one by one.
+/// All are compared one by one.
 template <class S>
 void BasicObjectSet<S>::visit_very_few(VisitPair visit) const {
-  constexpr std::size_t most = detail::thresholds.scanned_objects;
-  static_assert(most * most <= 64);
-  std::uint64_t known = first_pair_.load(std::memory_order_relaxed), pairs = 0;
+  std::uint64_t known = first_pair_.load(std::memory_order_relaxed);
   if (known != 0 && !visit(static_cast<Place>(known >> 32), static_cast<Place>(known))) return;
-  {
-    const detail::DefaultFloatEnvironment environment;
-    for (Place row = 0; row < table_.places(); ++row) {
-      const Box& box = table_.box(row);
-      if (!is_valid(box)) continue;
-      for (Place column = row + 1; column < table_.places(); ++column)
-        if (touch(box, table_.box(column)) && is_valid(table_.box(column)))
-          pairs |= std::uint64_t{1} << (most * row + column);
-    }
-  }
-  for (; pairs != 0; pairs &= pairs - 1) {
-    const auto bit = static_cast<Place>(std::countr_zero(pairs));
-    if (!visit_known(bit / most, bit % most, known, visit)) return;
-  }
+  detail::visit_few_pairs(table_, table_,
+                          [&](Place row, Place column) { return visit_known(row, column, known, visit); });
 }
 
 template <class S>
@@ -267,7 +256,7 @@ template <class S>
 void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
   if (table_.size() < 2) return;
   const bool is_planned = options_.method == Method::planned;
-  if (is_planned && table_.places() <= detail::thresholds.scanned_objects) return visit_very_few(visit);
+  if (is_planned && table_.size() <= detail::most_of_few) return visit_very_few(visit);
   if (is_planned && table_.size() <= detail::thresholds.few_objects) return visit_few(visit);
   Impl& impl = this->impl();
   Place first = 0;
@@ -304,18 +293,15 @@ void BasicObjectSet<S>::for_each_pair(VisitPair visit) const {
 }
 
 template <class S>
-void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, VisitPair visit) const {
+void BasicObjectSet<S>::visit_pairs(const BasicObjectSet& other, Order order, VisitPair visit) const {
   const Table& rows = table_;
   const Table& columns = other.table_;
-  if (rows.size() == 0 || columns.size() == 0) return;
   if (order == Order::places) {
     visit_rows(0, rows.places(), other, visit);
     return;
   }
   bool going_on = true;
-  const std::size_t more = std::max(rows.size(), columns.size()), fewer = std::min(rows.size(), columns.size());
-  const bool are_many = std::uint64_t{more} * fewer > detail::thresholds.few_tests;
-  if (options_.method == Method::hybrid || (are_many && more / 8 < fewer)) {
+  if (options_.method == Method::hybrid || joins(other)) {
     join(other, visit);
   } else if (asks_by_rows(other)) {
     for (Place row = 0; going_on && row < rows.places(); ++row)
@@ -330,6 +316,19 @@ void BasicObjectSet<S>::for_each_pair(const BasicObjectSet& other, Order order, 
   }
 }
 
+/// True if a batch is the way to all pairs with another set. To ask about the objects of the smaller one takes half as
+/// long where the larger one has three times as many and an index, and that is made once batches have cost as much.
+template <class S>
+bool BasicObjectSet<S>::joins(const BasicObjectSet& other) const {
+  // What a batch takes longer for a box of the larger set, in scans of a box.
+  constexpr std::uint64_t excess = 8;
+  const bool has_more = table_.size() > other.table_.size();
+  const BasicObjectSet& larger = has_more ? *this : other;
+  const std::size_t more = larger.table_.size(), fewer = (has_more ? other : *this).table_.size();
+  const bool are_many = std::uint64_t{more} * fewer > detail::thresholds.few_tests;
+  return are_many && more / 8 < fewer && (more / 3 < fewer || larger.scans_next(excess * more));
+}
+
 /// True if the objects of this set are to be asked about in the other one: those of the smaller in the larger, unless
 /// the index of that would have to be refreshed for them and to ask the other way round is cheaper.
 template <class S>
@@ -339,7 +338,7 @@ bool BasicObjectSet<S>::asks_by_rows(const BasicObjectSet& other) const {
   const bool has_more = table_.size() > other.table_.size();
   const BasicObjectSet &larger = has_more ? *this : other, &smaller = has_more ? other : *this;
   const auto is_ready = [](const BasicObjectSet& set) {
-    return set.table_.size() <= detail::thresholds.scanned_objects || set.known_.are_of(set.table_);
+    return set.table_.size() <= detail::most_of_few || set.known_.are_of(set.table_);
   };
   const std::uint64_t more = query * (larger.table_.size() - smaller.table_.size()) +
                              (is_ready(smaller) ? 0 : refresh * smaller.table_.size());

@@ -59,6 +59,7 @@ template void ObjectTable<double>::validate() const;
 template <class S>
 void BasicObjectSet<S>::validate() const {
   table_.validate();
+  detail::check(table_.size() > detail::most_of_few || table_.gaps() == 0, "objects: gaps among few");
   if (const Impl* const made = impl_.made()) {
     made->index.validate(table_, known_);
     made->pairs.validate(table_);

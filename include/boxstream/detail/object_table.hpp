@@ -29,7 +29,7 @@ inline bool is_same(const BasicAabb<S>& a, const BasicAabb<S>& b) {
 
 /// Objects in order of registration, with the boxes last read, and a log of changes by which views of the table are
 /// brought up to date. Objects are addresses, never dereferenced. A place is an index into the table. Removed objects
-/// leave gaps.
+/// leave gaps, unless they are taken out.
 template <class S>
 class ObjectTable {
  public:
@@ -97,6 +97,25 @@ class ObjectTable {
     objects_[place] = nullptr;
     boxes_[place] = {{inf, inf, inf}, {-inf, -inf, -inf}};  // pairs with nothing
     note(place);
+  }
+
+  /// Removes an object and closes all gaps. Places change, and views have to be made anew. For few objects, as all that
+  /// follow are moved.
+  void take_out(Place place) noexcept {
+    place_table_.erase(place, objects_);
+    objects_[place] = nullptr;
+    Place count = 0;
+    for (Place from = 0; from < places(); ++from) {
+      if (objects_[from] == nullptr) continue;
+      if (count != from) {
+        place_table_.rename(from, count, objects_);
+        for_each_array([&](auto& of) { of[count] = of[from]; });
+      }
+      ++count;
+    }
+    for_each_array([count](auto& of) { of.erase(of.begin() + static_cast<std::ptrdiff_t>(count), of.end()); });
+    size_ = count;
+    forget_changes();
   }
 
   /// False if it is the box that it had, bit for bit.

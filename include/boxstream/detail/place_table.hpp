@@ -61,8 +61,7 @@ class PlaceTable {
   /// Moves later cells of the probe sequence back, so that searches still find them.
   void erase(Place place, Addresses at) noexcept {
     if (cells_.empty()) return;
-    std::size_t hole = home(at[place]);
-    while (cells_[hole] != place) hole = next(hole);
+    std::size_t hole = cell_of(place, at);
     for (std::size_t i = next(hole); cells_[i] != none; i = next(i)) {
       const std::size_t distance = (i - home(at[cells_[i]])) & (cells_.size() - 1);
       if (distance < ((i - hole) & (cells_.size() - 1))) continue;
@@ -70,6 +69,11 @@ class PlaceTable {
       hole = i;
     }
     cells_[hole] = none;
+  }
+
+  /// The address at `from` is about to move to `to`.
+  void rename(Place from, Place to, Addresses at) noexcept {
+    if (!cells_.empty()) cells_[cell_of(from, at)] = to;
   }
 
   /// Rebuilds the table after places have changed. Null addresses are skipped.
@@ -86,6 +90,12 @@ class PlaceTable {
     return static_cast<std::size_t>((bits * 0x9e3779b97f4a7c15u) >> shift_);
   }
   std::size_t next(std::size_t i) const { return (i + 1) & (cells_.size() - 1); }
+  /// The address is in the table.
+  std::size_t cell_of(Place place, Addresses at) const {
+    std::size_t i = home(at[place]);
+    while (cells_[i] != place) i = next(i);
+    return i;
+  }
   void put_all(Addresses at) noexcept {
     for (Place place = 0; place < at.size(); ++place)
       if (at[place] != nullptr) insert(place, at);

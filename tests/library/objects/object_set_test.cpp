@@ -504,6 +504,73 @@ TYPED_TEST(ObjectSets, AFewOfWhichManyHaveLeft) {
   }
 }
 
+/// However many have been there: few have no gaps among them, keep their order and are found, though what was made of
+/// many is still there when they become few.
+TYPED_TEST(ObjectSets, FewHaveNoGaps) {
+  using S = TypeParam;
+  std::mt19937 random(12);
+  for (const std::size_t many : {1, 8, 9, 10, 25, 200}) {
+    Twins<S> twins, other;
+    for (int i = 0; i < 4; ++i) other.add(random_box<S>(random, 3));
+    for (int round = 0; round < 4; ++round) {
+      while (twins.table().size() < many) twins.add(random_box<S>(random, 3), round == 2 ? Filter{2, 3} : Filter{});
+      // What holds pairs and the index are made.
+      expect_same_pairs(twins, other);
+      expect_least_distance(twins, random_box<S>(random, 3), Filter{});
+      std::vector<const void*> left;
+      for (std::uint32_t i = 0; i < twins.table().places(); ++i)
+        if (twins.table().object(i) != nullptr) left.push_back(twins.table().object(i));
+      while (!left.empty()) {
+        const std::size_t i = random() % left.size();
+        twins.set.remove(twins.table().find(left[i]));
+        ASSERT_EQ(twins.table().find(left[i]), Twins<S>::Set::none);
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+        if (left.size() > 8) continue;
+        ASSERT_EQ(twins.table().places(), left.size());
+        for (std::uint32_t place = 0; place < left.size(); ++place) {
+          ASSERT_EQ(twins.table().object(place), left[place]);
+          ASSERT_EQ(twins.table().find(left[place]), place);
+        }
+        ASSERT_NO_THROW(twins.set.validate());
+        ASSERT_NO_FATAL_FAILURE(expect_same_pairs(twins, other));
+        ASSERT_NO_FATAL_FAILURE(expect_same_pairs(other, twins));
+        ASSERT_NO_FATAL_FAILURE(expect_same_distances(twins, other));
+        if (round == 3 && left.size() == 2) break;
+      }
+    }
+  }
+}
+
+/// Of two sets of which one is three times as large, its index is made once batches have cost as much; nothing else
+/// changes.
+TYPED_TEST(ObjectSets, TwoThatAreAskedAgainAndAgain) {
+  using S = TypeParam;
+  std::mt19937 random(13);
+  const auto bounded_box = [&] {
+    for (;;)
+      if (const auto box = random_box<S>(random, 8); is_valid(box) && box.max[1] < inf<S>) return box;
+  };
+  Twins<S> larger, smaller;
+  for (int i = 0; i < 300; ++i) larger.add(bounded_box(), i % 7 == 0 ? Filter{2, 3} : Filter{});
+  for (int i = 0; i < 90; ++i) smaller.add(random_box<S>(random, 8));
+  const BasicAabb<S> beyond{{100, 100, 100}, {101, 101, 101}};
+  for (std::uint32_t time = 0; time < 40; ++time) {
+    const bool has_index = larger.set.is_clear(beyond);
+    ASSERT_TRUE(time % 20 >= 2 || !has_index) << time;
+    ASSERT_TRUE(time % 20 < 19 || has_index) << time;
+    const Twins<S>& first = time % 2 == 0 ? larger : smaller;
+    const Twins<S>& second = time % 2 == 0 ? smaller : larger;
+    typename Twins<S>::Pairs pairs;
+    first.set.for_each_pair(second.set, Twins<S>::Set::Order::any, [&](std::uint32_t a, std::uint32_t b) {
+      pairs.push_back({a, b});
+      return true;
+    });
+    ASSERT_EQ(sorted(pairs), first.all_pairs(second));
+    if (time == 19)
+      for (std::uint32_t place = 0; place < 300; ++place) larger.set.set_box(place, bounded_box());
+  }
+}
+
 /// For the least distance few objects are looked at: of a list one, from outside.
 TYPED_TEST(ObjectSets, TheNearestFirst) {
   using S = TypeParam;

@@ -44,6 +44,31 @@ TEST(PlaceTable, FindsWhatIsThere) {
   }
 }
 
+/// Of each gap that closes, what follows moves down by one.
+TEST(PlaceTable, FollowsWhatMoves) {
+  std::mt19937 random(3);
+  PlaceTable table;
+  std::vector<void*> at;
+  std::uintptr_t next = 0;
+  table.reserve(40, at);
+  for (int step = 0; step < 2000; ++step) {
+    if (at.size() < 40 && random() % 2 == 0) {
+      at.push_back(reinterpret_cast<void*>(16 * ++next));
+      table.insert(static_cast<std::uint32_t>(at.size() - 1), at);
+    } else if (!at.empty()) {
+      const auto place = static_cast<std::uint32_t>(random() % at.size());
+      table.erase(place, at);
+      for (std::uint32_t from = place + 1; from < at.size(); ++from) {
+        table.rename(from, from - 1, at);
+        at[from - 1] = at[from];
+      }
+      at.pop_back();
+    }
+    for (std::uint32_t i = 0; i < at.size(); ++i) ASSERT_EQ(table.find(at[i], at), i);
+    ASSERT_EQ(table.find(&random, at), PlaceTable::none);
+  }
+}
+
 TEST(PlaceTable, AnEmptyOneFindsNothing) {
   const PlaceTable table;
   const int object = 0;

@@ -17,7 +17,7 @@ Filter CollisionManager<S>::filter_of_query(const Object* object) const {
 
 template <class S>
 void CollisionManager<S>::collide_with(Object* object, Filter filter, void* cdata, CollisionCallBack callback) const {
-  if (empty()) return;
+  if (set_.table().size() == 0) return;
   if (warns_) warn();
   if (reads_aabb_ && set_.is_clear(detail::copy_of(object->getAABB()))) return;
   set_.for_each_overlap(read(*object), filter, order_, [&](Place place) {
@@ -66,7 +66,7 @@ void CollisionManager<S>::with_set_of(Base* other, Use&& use) const {
 template <class S>
 void CollisionManager<S>::collide(Base* other, void* cdata, CollisionCallBack callback) const {
   if (other == this) return collide(cdata, callback);
-  if (empty()) return;
+  if (set_.table().size() == 0) return;
   if (warns_) warn();
   with_set_of(other, [&](const Set& others) {
     set_.for_each_pair(others, order_, [&](Place a, Place b) {

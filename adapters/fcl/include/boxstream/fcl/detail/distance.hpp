@@ -11,7 +11,7 @@ namespace boxstream::fcl {
 
 template <class S>
 void CollisionManager<S>::distance_to(Object* object, Filter filter, void* cdata, DistanceCallBack callback) const {
-  if (empty()) return;
+  if (set_.table().size() == 0) return;
   if (warns_) warn();
   S dist = std::numeric_limits<S>::max();
   set_.for_each_near(read(*object), filter, dist, [&](Place place) {
@@ -47,7 +47,7 @@ void CollisionManager<S>::distance(void* cdata, DistanceCallBack callback) const
 template <class S>
 void CollisionManager<S>::distance(Base* other, void* cdata, DistanceCallBack callback) const {
   if (other == this) return distance(cdata, callback);
-  if (empty()) return;
+  if (set_.table().size() == 0) return;
   if (warns_) warn();
   with_set_of(other, [&](const Set& others) {
     S dist = std::numeric_limits<S>::max();

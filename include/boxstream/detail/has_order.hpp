@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <boxstream/cxx17.hpp>
+
 #include <boxstream/aabb.hpp>
 
 namespace boxstream::detail {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <boxstream/cxx17.hpp>
+
 #include <boxstream/detail/float_environment.hpp>
 
 #if !(defined(__x86_64__) || defined(_M_X64))
