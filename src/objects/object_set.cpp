@@ -97,7 +97,10 @@ void BasicObjectSet<S>::shrink_to_fit() {
   impl_.reset();
   known_.change.store(0, std::memory_order_relaxed);
   forget_first_pair();
-  if (table_.gaps() != 0) table_.compact(table_.compacted(table_.last_change()));
+  if (table_.gaps() != 0) {
+    table_.compact(table_.compacted(table_.last_change()));
+    table_.forget_changes();  // as places have changed, and what follows may throw
+  }
   table_.shrink_to_fit();
 }
 

@@ -141,6 +141,12 @@ class ObjectTable {
     has_filters_ = false;
   }
 
+  /// Views have to be made anew, and nothing is known any more of what was so at an earlier change.
+  void forget_changes() noexcept {
+    dropped_changes_ += changes_.size() + 1;
+    changes_.clear();
+  }
+
   std::size_t gaps() const { return objects_.size() - size_; }
 
   /// The places that there are after `compact`, by those before it; `none` for gaps that are closed. Gaps among the
@@ -204,11 +210,6 @@ class ObjectTable {
   }
 
   /// Skips one number, so that no view counts as up to date.
-  void forget_changes() noexcept {
-    dropped_changes_ += changes_.size() + 1;
-    changes_.clear();
-  }
-
   std::vector<void*> objects_;
   std::vector<Box> boxes_;
   std::vector<Filter> filters_;

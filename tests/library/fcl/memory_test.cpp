@@ -46,7 +46,7 @@ class FlakyHistory {
   }
 
   void step() {
-    switch (pick(14)) {
+    switch (pick(15)) {
       case 0:
         return put(30);
       case 1: {
@@ -103,6 +103,10 @@ class FlakyHistory {
         for (int i = 0; i < 40; ++i) compare_pairs_of(any());
         return;
       case 12:
+        return compare_distances();
+      case 13:  // what is known of the nearest pair is of other places then
+        compare_distances();
+        for (auto* manager : {&manager_, &other_}) call([manager] { manager->shrink_to_fit(); });
         return compare_distances();
       default:
         return compare_objects();
