@@ -55,7 +55,8 @@ struct KnownBounds {
 ///
 /// The first query that needs an index, or a World that holds all pairs, makes it; later queries bring it up to date.
 /// Where a scan of all boxes is cheaper, both are left as they are. With few objects, pairs are never held, and near
-/// objects are found without an index; with up to eight, what touches a box and what is near it as well.
+/// objects are found without an index; with up to eight, what touches a box and what is near it as well,
+/// and `remove` drops both.
 ///
 /// @par Memory
 /// In bytes an object, of doubles (floats): at most 90 (66) after `reserve` or `shrink_to_fit`, up to half as much
@@ -68,7 +69,8 @@ struct KnownBounds {
 /// must not change the set.
 ///
 /// @par Order
-/// The order of visits depends only on the calls of this set so far. Pairs of one set are sorted by places, of the
+/// The order of visits depends only on the calls of this set and the other one so far: where calls at once make an
+/// index, on which does. Pairs of one set are sorted by places, of the
 /// first, then of the second. With `Order::places` all queries except those for distances visit in order of places: a
 /// query then collects its hits first, and pairs of two sets are found object by object, which takes longer.
 ///

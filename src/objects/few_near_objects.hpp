@@ -57,10 +57,10 @@ class FewNearPairs {
     }
   }
 
-  /// The number of one that is nearer than the limit and comes first, or `none`.
-  std::uint64_t first(const NearLimit<S>& limit, std::uint64_t none) const {
+  /// The number of one that is nearer than the limit and comes first, or KnownFirst::unknown.
+  std::uint64_t first(const NearLimit<S>& limit) const {
     const unsigned i = near_.first(limit);
-    return i < near_.count() ? number_of_pair(pairs_[i].row, pairs_[i].column) : none;
+    return i < near_.count() ? number_of_pair(pairs_[i].row, pairs_[i].column) : KnownFirst::unknown;
   }
 
   /// Those nearer to each other than the limit; `visit(row, column)` returns the limit from now on.

@@ -203,7 +203,7 @@ void BasicObjectSet<S>::visit_near_few(const BasicObjectSet& other, S limit, Vis
   const bool is_one = table_.size() + other.table_.size() == (&other == this ? 4 : 2);
   if (begin.is_all() || (is_one && begin.has_visited())) return;
   detail::FewNearPairs<S> pairs(table_, other.table_, begin.visited());
-  if (!begin.is_known()) begin.keep(pairs.first(begin.limit(), detail::KnownFirst::unknown));
+  if (!begin.is_known()) begin.keep(pairs.first(begin.limit()));
   pairs.visit(begin.limit(), visit);
 }
 

@@ -8,7 +8,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 # What inline functions of the headers call.
-INSIDE = {"boxstream::detail::near_exactly", "boxstream::BasicObjectSet::forget_first_pair"}
+INSIDE = {"boxstream::detail::near_exactly", "boxstream::BasicObjectSet::forget_first_pair",
+          "boxstream::BasicObjectSet::visit_overlaps", "boxstream::BasicObjectSet::visit_pairs"}
 HEADERS_ALONE = ("boxstream::fcl::", "boxstream::mpi::", "boxstream::TbbExecutor")
 KINDS = ("vtable for ", "typeinfo for ", "typeinfo name for ")
 

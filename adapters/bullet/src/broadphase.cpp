@@ -80,14 +80,16 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   assert((!own || !own->is_in_callback()) && "callbacks for pairs must not destroy proxies");
   close_rooms();
   all_have_begun = false;
-  if (is_known_to_few() && own->holds_worlds_pairs()) {
+  bool is_done = false;
+  while (!is_done && may_end_by_few(dispatcher)) {
     release_in_world(proxy);
-    own->take_out_all_of(proxy, dispatcher);
-    if (!own->holds_worlds_pairs()) few_verdicts.forget();
-  } else if (own) {
+    few_verdicts.note_alone(proxy);
+    is_done = !own->end_all_of(proxy, dispatcher);  // callbacks may have begun others
+  }
+  if (own && !is_done) {
     few_verdicts.forget();
     own->remove_all_of(proxy, dispatcher);
-  } else {
+  } else if (!own) {
     cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
     snapshot.remove_all_of(proxy);
   }
@@ -104,9 +106,11 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
     free_proxy(proxy);
 }
 
-/// Verdicts say which pairs a proxy has that is destroyed, and the World may change now.
-bool Broadphase::Impl::is_known_to_few() {
-  return own && few_verdicts.are_known() && !own->is_in_callback() && !world_is_busy;
+/// True if verdicts say which pairs a proxy has, and it can be destroyed without the World.
+bool Broadphase::Impl::may_end_by_few(btDispatcher* dispatcher) {
+  if (!own || own->is_in_callback() || world_is_busy) return false;
+  own->flush_notifications(dispatcher);
+  return few_verdicts.are_known() && own->holds_worlds_pairs();
 }
 
 /// The pairs that verdicts know of a proxy that is about to be destroyed.
@@ -219,7 +223,7 @@ void Broadphase::Impl::flush_changes() {
   });
 }
 
-/// Releases its pairs first, so that the World holds the same pairs as the cache.
+/// Releases its pairs first, so that the World holds none of a proxy that is gone.
 void Broadphase::Impl::free_proxy(Proxy& proxy) {
   is_quiet = false;
   if (own)

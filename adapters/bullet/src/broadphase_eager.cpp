@@ -42,14 +42,14 @@ void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatc
     close_rooms();
     is_quiet = false;
     or_fatal([&] {
-      catch_up();
       release_user_changes(dispatcher, false);
+      catch_up();
       surroundings.give_up_crowd();
       if (!surroundings.are_kept() && surroundings.note_search(live.size())) keep_surroundings();
       surroundings.are_kept() ? begin_among_neighbours(proxy, settled) : begin_by_search(proxy, settled);
-      if (!early.empty()) few_verdicts.forget();
     });
   }
+  if (!early.empty()) few_verdicts.forget();
   if (own && early.empty() && destroyed.empty()) return;
   if (own) {
     const Busy busy(*this);

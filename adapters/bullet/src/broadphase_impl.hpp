@@ -95,7 +95,8 @@ struct Broadphase::Impl {
 
   ProxyRooms rooms;
   FewVerdicts few_verdicts;
-  bool world_lags = false;  ///< verdicts have changed pairs, of which the World has to be told
+  /// Verdicts have changed pairs, of which the World has to be told. Then neither rooms nor surroundings are kept.
+  bool world_lags = false;
   Surroundings surroundings;
   mutable bool has_new_filters = false;
 
@@ -128,7 +129,7 @@ struct Broadphase::Impl {
   bool is_still_quiet();
   bool is_done_by_few(btDispatcher* dispatcher);
   void catch_up();
-  bool is_known_to_few();
+  bool may_end_by_few(btDispatcher* dispatcher);
   void release_in_world(const Proxy& proxy);
   bool is_rule_known() const;
   bool has_written_filter(std::size_t count);

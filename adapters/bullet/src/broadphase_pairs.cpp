@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <utility>
 
@@ -111,42 +112,55 @@ bool Broadphase::Impl::is_done_by_few(btDispatcher* dispatcher) {
   });
   if (answer == FewVerdicts::Answer::unknown) return false;
   stats.proxies = live.size();
+  stats.pairs = own->store().size();
   stats.moved = moved;
   stats.begun = stats.ended = 0;
   stats.search = {};
   if (answer == FewVerdicts::Answer::nothing) return true;
-  const std::uint32_t before = own->store().size();
   or_fatal([&] {
     if (few_verdicts.has_any_ended())
       own->end([this](const btBroadphasePair& pair) { return few_verdicts.has_ended(pair); });
     own->begin(early);
   });
   world_lags = true;
-  stats.pairs = own->store().size();
   stats.begun = early.size();
-  stats.ended = before + stats.begun - stats.pairs;
+  stats.ended = stats.pairs + stats.begun - own->store().size();
+  stats.pairs = own->store().size();
   own->flush_notifications(dispatcher);
   return true;
 }
 
-/// Tells the World of the pairs that few proxies hold. In the next update it decides about them anew, for boxes may
-/// have gone away and come back, or users may have changed pairs.
+/// Tells the World of the pairs that few proxies hold. In the next update it decides anew about those that it did not
+/// know of, for boxes may have gone away and come back, and about those that users have changed.
 void Broadphase::Impl::catch_up() {
   if (!world_lags) return;
+  assert(!rooms.are_open() && !surroundings.are_kept());
   flush_pending();
+  const auto decide_anew = [this](ProxyId a, ProxyId b) {
+    world.refilter(a);
+    world.refilter(b);
+  };
+  if (!own->user_changes().empty()) {
+    few_verdicts.forget();
+    all_have_begun = false;
+    own->user_changes().flush(decide_anew);
+  }
   own->settle();
   begun.clear();
   ended.clear();
   PairStore& pairs = own->store();
   for (std::uint32_t i = 0; i < pairs.size(); ++i)
-    begun.push_back(
-        {static_cast<const Proxy*>(pairs[i].m_pProxy0)->id, static_cast<const Proxy*>(pairs[i].m_pProxy1)->id});
+    if (!place_in(world, pairs[i]))
+      begun.push_back(
+          {static_cast<const Proxy*>(pairs[i].m_pProxy0)->id, static_cast<const Proxy*>(pairs[i].m_pProxy1)->id});
   world.for_each_pair([&](ProxyPair pair) {
+    assert(world.contains(pair.a) && world.contains(pair.b));
     if (pairs.find(proxy_of(pair.a), proxy_of(pair.b)) == PairStore::npos) ended.push_back(pair);
     return true;
   });
   world.update_told(begun, ended, [](ProxyId, ProxyId) { return true; });
-  world.refilter();
+  for (const auto* told : {&begun, &ended})
+    for (const ProxyPair& pair : *told) decide_anew(pair.a, pair.b);
   world_lags = false;
 }
 

@@ -41,11 +41,18 @@ std::uint32_t FewVerdicts::Columns::touching(const Box& box, std::uint32_t size)
   return std::uint32_t(touching);
 }
 
+void FewVerdicts::note_alone(const Proxy& proxy) {
+  if (!are_known_) return;
+  for (std::uint32_t others = held_[proxy.position]; others != 0; others &= others - 1)
+    held_[std::countr_zero(others)] ^= bit(proxy.position);
+  held_[proxy.position] = 0;
+  moved_ |= bit(proxy.position);
+}
+
 void FewVerdicts::note_destroyed(const Proxy& proxy, std::size_t size) {
   if (!are_known_) return;
+  note_alone(proxy);
   const std::uint32_t gone = proxy.position, last = std::uint32_t(size - 1);
-  for (std::uint32_t others = held_[gone]; others != 0; others &= others - 1)
-    held_[std::countr_zero(others)] ^= bit(gone);
   const std::uint32_t last_moved = (moved_ & bit(last)) != 0 ? bit(gone) : 0;
   moved_ &= ~(bit(gone) | bit(last));
   if (gone == last) return;
@@ -74,6 +81,7 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs) {
 }
 
 FewVerdicts::Answer FewVerdicts::compare(const Proxies& live, bool by_masks) {
+  if (moved_ == 0) return Answer::nothing;
   const boxstream::detail::DefaultFloatEnvironment environment;
   const auto size = std::uint32_t(live.size());
   const std::uint32_t all = size == 0 ? 0 : ~std::uint32_t{0} >> (most - size);

@@ -43,6 +43,8 @@ class FewVerdicts {
     held_[proxy.position] = 0;
     note_move(proxy, box);
   }
+  /// All its pairs have been taken out. Unless it goes, the next batch decides about them.
+  void note_alone(const Proxy& proxy);
   /// With all its pairs, and before the last one of `size` takes its place.
   void note_destroyed(const Proxy& proxy, std::size_t size);
 
@@ -63,7 +65,7 @@ class FewVerdicts {
     moved_ = 0;
     if (answer == Answer::pairs)
       note_changes(live, begun);
-    else if (++still_batches_ == patience_)
+    else if (++batches_held_ == patience_)
       let_rooms_try();
     return answer;
   }
@@ -114,7 +116,7 @@ class FewVerdicts {
     forget();
     searches_left_ = least_searches + patience_ / 8;
     patience_ = patience_ < most_patience ? 2 * patience_ : patience_;
-    still_batches_ = 0;
+    batches_held_ = 0;
   }
 
   /// In these, rooms are made where boxes only tremble, and memory that many proxies took goes back.
@@ -127,8 +129,8 @@ class FewVerdicts {
   std::uint32_t held_[most];
   std::uint32_t changed_[most];  // by the last answer
   bool has_any_ended_ = false;
-  unsigned still_batches_ = 0, patience_ = least_patience;  // since rooms were last let try, and at most
-  unsigned searches_left_ = 0;                              // before this may take part
+  unsigned batches_held_ = 0, patience_ = least_patience;  // in which all were still, since rooms were last let try
+  unsigned searches_left_ = 0;                             // before this may take part
 };
 
 }  // namespace BOXSTREAM_BULLET_PRECISION

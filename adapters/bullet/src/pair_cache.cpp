@@ -91,16 +91,12 @@ void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
   removeOverlappingPairsContainingProxy(&proxy, dispatcher);
 }
 
-void PairCache::take_out_all_of(Proxy& proxy, btDispatcher* dispatcher) {
-  flush_notifications(dispatcher);
-  for (std::uint32_t end = store_.size(); holds_worlds_pairs();) {
-    end = store_.last_of(proxy, end);
-    if (end == PairStore::npos) return;
-    btBroadphasePair pair = store_.take_out(end);
-    finish_removed(pair, dispatcher);
-    end = std::min(end, store_.size());
-  }
-  remove_all_of(proxy, dispatcher);
+bool PairCache::end_all_of(const Proxy& proxy, btDispatcher* dispatcher) {
+  store_.take_out([&](const btBroadphasePair& pair) { return names(pair, proxy); }, pending_removed_);
+  if (pending_removed_.empty()) return false;
+  std::reverse(pending_removed_.begin(), pending_removed_.end());  // as removeOverlappingPairsContainingProxy
+  send_notifications(dispatcher);
+  return true;
 }
 
 void PairCache::drop_pending_of(const Proxy& proxy, btDispatcher* dispatcher) {

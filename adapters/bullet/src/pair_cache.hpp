@@ -42,9 +42,12 @@ class PairCache final : public btOverlappingPairCache {
   /// As removeOverlappingPairsContainingProxy, for a proxy that is about to be destroyed. The World must get the
   /// changes of users before that.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
-  /// The same where the World is told of pairs later, while they are settled, and callbacks do not change them.
-  void take_out_all_of(Proxy& proxy, btDispatcher* dispatcher);
-  /// So is what ends, by `has_ended(pair)`, and what begins. May throw.
+
+  // Where the World is told of pairs later, while they are settled. May throw.
+
+  /// The pairs of a proxy, which then has none until callbacks change pairs. False if there are none.
+  bool end_all_of(const Proxy& proxy, btDispatcher* dispatcher);
+  /// Those for which `has_ended(pair)` is true. Notifications are due then.
   template <class HasEnded>
   void end(HasEnded&& has_ended) {
     store_.take_out(has_ended, pending_removed_);
@@ -53,12 +56,12 @@ class PairCache final : public btOverlappingPairCache {
     store_.put_in(begun);
     if (ghost_callback_ != nullptr) pending_added_.insert(pending_added_.end(), begun.begin(), begun.end());
   }
-  /// The World is about to be told of all pairs, and asks anew about each.
+  /// The World is about to be told of all pairs, and has got the changes of users.
   void settle() {
     store_.settle();
-    user_changes_ = UserChanges();
     users_added_ = false;
   }
+
   /// To be flushed to the World before each batch, and before pairs begin early.
   UserChanges& user_changes() { return user_changes_; }
   /// True if the pairs are those of the World, in its order, and no notification is due.

@@ -23,7 +23,8 @@ void require_memory(std::size_t bytes) {
   btAlignedFree(memory);
 }
 
-/// The order of the World: by creation of the older proxy, then of the younger one.
+}  // namespace
+
 bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y) {
   const auto ages = [](const btBroadphasePair& pair) {
     return std::minmax(static_cast<const Proxy*>(pair.m_pProxy0)->created,
@@ -31,8 +32,6 @@ bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y) {
   };
   return std::pair<std::uint64_t, std::uint64_t>(ages(x)) < std::pair<std::uint64_t, std::uint64_t>(ages(y));
 }
-
-}  // namespace
 
 std::uint32_t PairStore::find(const Proxy& a, const Proxy& b) {
   splice_late();
@@ -214,24 +213,6 @@ void PairStore::restore_order() {
   is_sorted_ = true;
 }
 
-std::uint32_t PairStore::last_of(const Proxy& proxy, std::uint32_t end) {
-  splice_late();
-  const btBroadphasePair* const pairs = end == 0 ? nullptr : &pairs_[0];
-  while (end-- > 0)
-    if ((pairs[end].m_pProxy0 == &proxy) | (pairs[end].m_pProxy1 == &proxy)) return end;
-  return npos;
-}
-
-btBroadphasePair PairStore::take_out(std::uint32_t index) {
-  splice_late();
-  forget_places();
-  const btBroadphasePair taken = pairs_[int(index)];
-  for (int i = int(index) + 1; i < pairs_.size(); ++i) pairs_[i - 1] = pairs_[i];
-  pairs_.pop_back();
-  world_pairs_ = size();
-  return taken;
-}
-
 void PairStore::put_in(std::vector<btBroadphasePair>& begun) {
   if (begun.empty()) return;
   splice_late();
@@ -248,7 +229,7 @@ void PairStore::put_in(std::vector<btBroadphasePair>& begun) {
 void PairStore::settle() {
   splice_late();
   forget_places();
-  if (!is_settled()) std::sort(&pairs_[0], &pairs_[0] + size(), comes_before);
+  if (!is_settled() && size() != 0) std::sort(&pairs_[0], &pairs_[0] + size(), comes_before);
   removals_.clear();
   is_sorted_ = false;
   world_pairs_ = size();

@@ -18,6 +18,9 @@
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
 
+/// The order of the World: by creation of the older proxy, then of the younger one.
+bool comes_before(const btBroadphasePair& x, const btBroadphasePair& y);
+
 /// The dense array of pairs that Bullet reads; after each batch those that the World holds, in its order.
 ///
 /// Between batches single pairs are added and removed at constant cost: new ones at the end, and the last pair fills
@@ -89,23 +92,21 @@ class PairStore {
   void follow(const World& world, std::vector<btBroadphasePair>& ended, std::vector<btBroadphasePair>& begun,
               LeftOut&& left_out);
 
-  // Without the World, while settled.
+  // Of pairs that the World is told of later, while settled.
 
-  /// The last pair of the proxy before the place `end`; npos if there is none.
-  std::uint32_t last_of(const Proxy& proxy, std::uint32_t end);
-  /// Takes out one pair, or those for which `has_ended(pair)` is true, and puts in others, in any order.
-  btBroadphasePair take_out(std::uint32_t index);
-  template <class HasEnded>
-  void take_out(HasEnded&& has_ended, std::vector<btBroadphasePair>& ended);
+  /// Appends the pairs for which `is(pair)` is true to `taken`.
+  template <class Is>
+  void take_out(Is&& is, std::vector<btBroadphasePair>& taken);
+  /// In any order, which changes.
   void put_in(std::vector<btBroadphasePair>& begun);
-  /// From now on, settled or not: the World holds these pairs.
+  /// Settled or not before: from now on the World holds these pairs.
   void settle();
 
   /// Gives memory back that many pairs took, after some batches with fewer.
   void give_back_unused();
   /// The same now, whatever lies idle.
   void shrink_to_fit() { give_back(0); }
-  /// True if all pairs are those of the World, in its order.
+  /// True if all pairs are those of the World, or those that it will be told of, in its order.
   bool is_settled() const { return is_in_world_order() && size() == world_pairs_; }
   /// Number of pairs at the front that are those of the World, in its order.
   std::uint32_t in_order() const { return is_in_world_order() ? world_pairs_ : 0; }
@@ -178,14 +179,14 @@ void PairStore::for_each_of(const Proxy& proxy, F&& visit) {
   }
 }
 
-template <class HasEnded>
-void PairStore::take_out(HasEnded&& has_ended, std::vector<btBroadphasePair>& ended) {
+template <class Is>
+void PairStore::take_out(Is&& is, std::vector<btBroadphasePair>& taken) {
   splice_late();
   forget_places();
   int kept = 0;
   for (int i = 0; i < pairs_.size(); ++i)
-    if (has_ended(pairs_[i]))
-      ended.push_back(pairs_[i]);
+    if (is(pairs_[i]))
+      taken.push_back(pairs_[i]);
     else
       pairs_[kept++] = pairs_[i];
   pairs_.resizeNoInitialize(kept);

@@ -63,6 +63,8 @@ void PairStore::validate() {
   }
   const std::vector<std::uint64_t> all = sorted(keys);
   check(std::adjacent_find(all.begin(), all.end()) == all.end(), "pairs: one is held twice");
+  for (std::uint32_t i = 1; i < in_order(); ++i)
+    check(comes_before(pairs_[int(i) - 1], pairs_[int(i)]), "pairs: not in the order of creation");
   links_.validate(pairs_);
 }
 
@@ -121,6 +123,11 @@ void Broadphase::Impl::validate() {
   for (int i = 0; i < cache->getNumOverlappingPairs(); ++i)
     check(proxies.count(pairs[i].m_pProxy0) != 0 && proxies.count(pairs[i].m_pProxy1) != 0,
           "cache: a pair of a proxy that is gone");
+  world.for_each_pair([&](ProxyPair pair) {
+    const bool may_be_gone = !own || !destroyed.empty();
+    check(may_be_gone || (world.contains(pair.a) && world.contains(pair.b)), "World: a pair of one that is gone");
+    return true;
+  });
   if (own && world_lags)
     own->store().validate();
   else if (own)

@@ -17,7 +17,7 @@
 
 namespace boxstream::detail {
 
-/// A set of no more has no gaps.
+/// A set of no more has no gaps. Compiled into programs: a lower number would need another one for the ABI.
 constexpr std::size_t most_of_few = 8;
 
 /// `overlaps` without branches: which of the six comparisons fails first is unpredictable.

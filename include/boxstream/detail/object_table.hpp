@@ -141,7 +141,8 @@ class ObjectTable {
     has_filters_ = false;
   }
 
-  /// Views have to be made anew, and nothing is known any more of what was so at an earlier change.
+  /// Skips one number, so that views have to be made anew, and nothing is known any more of what was so at an earlier
+  /// change.
   void forget_changes() noexcept {
     dropped_changes_ += changes_.size() + 1;
     changes_.clear();
@@ -209,7 +210,6 @@ class ObjectTable {
     changes_.push_back(place);
   }
 
-  /// Skips one number, so that no view counts as up to date.
   std::vector<void*> objects_;
   std::vector<Box> boxes_;
   std::vector<Filter> filters_;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <BulletCollision/CollisionDispatch/btGhostObject.h>
@@ -186,6 +188,82 @@ TEST(BulletFewVerdicts, GhostsHearOfEachPairOnce) {
   }
   EXPECT_EQ(log.adds(), 5);
   rig.cache().setInternalGhostPairCallback(nullptr);
+}
+
+/// Users remove and add pairs, and a ghost that moves asks for its own before the next batch decides about those.
+TEST(BulletFewVerdicts, GhostsDoNotMakeUsersChangesLast) {
+  Rig rig;
+  GhostLog log;
+  rig.cache().setInternalGhostPairCallback(&log);
+  btGhostObject ghost;
+  btBroadphaseProxy* const at_ghost = rig.create_for(&ghost, cube(50, 0, 0));
+  btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
+  btBroadphaseProxy* const b = rig.create(cube(btScalar(0.5), 0, 0));
+  btBroadphaseProxy* const far = rig.create(cube(20, 0, 0));
+  rig.calculate();
+  rig.cache().removeOverlappingPair(a, b, nullptr);
+  rig.cache().addOverlappingPair(a, far);
+  rig.move(at_ghost, cube(60, 0, 0));
+  rig.calculate();
+  EXPECT_TRUE(rig.holds(a, b));
+  EXPECT_FALSE(rig.holds(a, far));
+  rig.move(far, cube(0, btScalar(0.5), 0));
+  rig.calculate();
+  EXPECT_EQ(rig.pair_count(), 3);
+  rig.cache().setInternalGhostPairCallback(nullptr);
+}
+
+TEST(BulletFewVerdicts, TheOnlyPairIsRemovedByItsUser) {
+  Pile pile({}, 1);
+  pile.add(pile.places[0]);
+  pile.calculate();
+  pile.broadphase.getOverlappingPairCache()->removeOverlappingPair(pile.proxies[0], pile.proxies[1], nullptr);
+  pile.calculate();
+  pile.check("removed", 0);
+  pile.remove(0);
+  pile.calculate();
+  EXPECT_EQ(pile.broadphase.stats().pairs, 0u);
+}
+
+/// While a proxy is destroyed, a callback for one of its pairs throws, moves a ghost onto it, or has pairs found.
+TEST(BulletFewVerdicts, CallbacksOfADestroyedProxysPairs) {
+  for (const int what : {0, 1, 2})
+    for (const bool lags : {false, true}) {
+      Rig rig;
+      GhostLog log;
+      rig.cache().setInternalGhostPairCallback(&log);
+      btGhostObject ghost;
+      btBroadphaseProxy* const at_ghost = rig.create_for(&ghost, cube(50, 0, 0));
+      btBroadphaseProxy* const middle = rig.create(cube(0, 0, 0));
+      btBroadphaseProxy* const one = rig.create(cube(btScalar(0.5), 0, 0));
+      btBroadphaseProxy* const other = rig.create(cube(0, btScalar(0.5), 0));
+      for (int batch = 0; batch < (lags ? 1 : 60); ++batch) {
+        if (!lags) rig.move(at_ghost, cube(50, 0, btScalar(0.001) * btScalar(batch % 2)));
+        rig.calculate();
+      }
+      bool is_first = true;
+      log.on_event = [&](const GhostLog::Event&) {
+        if (!std::exchange(is_first, false)) return;
+        if (what == 0) throw std::runtime_error("of a callback");
+        if (what == 1) rig.move(at_ghost, cube(0, 0, btScalar(0.5)));
+        if (what == 2) rig.calculate();
+      };
+      if (what == 0) {
+        EXPECT_THROW(rig.destroy(middle), std::runtime_error);
+        rig.calculate();
+        EXPECT_EQ(rig.pair_count(), 3) << "it has not gone, and its pairs are back";
+      }
+      rig.destroy(middle);
+      rig.calculate();
+      EXPECT_TRUE(rig.holds(one, other));
+      EXPECT_EQ(rig.pair_count(), what == 1 ? 3 : 1);
+      log.on_event = nullptr;
+      rig.destroy(one);
+      for (int batch = 0; batch < 3; ++batch) rig.calculate();
+      EXPECT_EQ(rig.pair_count(), what == 1 ? 1 : 0);
+      EXPECT_EQ(log.standing().size(), what == 1 ? 1u : 0u);
+      rig.cache().setInternalGhostPairCallback(nullptr);
+    }
 }
 
 /// The World has a pair that has ended since, and verdicts are forgotten at some time before the proxy goes.

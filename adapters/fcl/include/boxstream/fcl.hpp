@@ -38,7 +38,8 @@ namespace boxstream::fcl {
 /// Exactly those whose boxes touch, each once, never an object with itself (FCL's trees report a managed query object
 /// against itself). Queries of an object are called back as (managed, query), those of two managers as (this, other).
 /// Self queries go by the order of registration, of the first, then the second object of a pair. Other orders depend on
-/// the history of calls alone, not on addresses or threads. setRegistrationOrder makes them the order of registration
+/// the history of calls alone, not on addresses or, but for which of several calls at once makes an index, on threads.
+/// setRegistrationOrder makes them the order of registration
 /// too; for a manager of a foreign type that is the order of its getObjects(). Which object of a pair comes first in a
 /// self query of FCL's trees is a matter of where they are in the tree, so no comparison can tell; it changes from
 /// update to update, and with it what a narrow phase answers that treats its two shapes unlike: contact points of two
