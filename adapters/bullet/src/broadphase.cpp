@@ -79,20 +79,8 @@ Proxy* Broadphase::Impl::create(const btVector3& lo, const btVector3& hi, void* 
 void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
   assert((!own || !own->is_in_callback()) && "callbacks for pairs must not destroy proxies");
   close_rooms();
-  all_have_begun = false;
-  bool is_done = false;
-  while (!is_done && may_end_by_few(dispatcher)) {
-    release_in_world(proxy);
-    few_verdicts.note_alone(proxy);
-    is_done = !own->end_all_of(proxy, dispatcher);  // callbacks may have begun others
-  }
-  if (own && !is_done) {
-    few_verdicts.forget();
-    own->remove_all_of(proxy, dispatcher);
-  } else if (!own) {
-    cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
-    snapshot.remove_all_of(proxy);
-  }
+  all_have_begun = is_quiet = false;
+  end_all_of(proxy, dispatcher);
   few_verdicts.note_destroyed(proxy, live.size());
   live.back()->position = proxy.position;
   live[proxy.position] = live.back();
@@ -104,6 +92,28 @@ void Broadphase::Impl::destroy(Proxy& proxy, btDispatcher* dispatcher) {
     or_fatal([&] { destroyed.push_back(&proxy); });
   else
     free_proxy(proxy);
+}
+
+/// Callbacks may begin none until it is gone.
+void Broadphase::Impl::end_all_of(Proxy& proxy, btDispatcher* dispatcher) {
+  struct Ending {
+    explicit Ending(bool& is) : is_ending(is), was(std::exchange(is, true)) {}
+    ~Ending() { is_ending = was; }
+    bool& is_ending;
+    const bool was;
+  } const ending{is_ending};
+  bool is_done = false;
+  while (!is_done && may_end_by_few(dispatcher)) {
+    release_in_world(proxy);
+    few_verdicts.note_alone(proxy);
+    surroundings.forget_held();
+    is_done = !own->end_all_of(proxy, dispatcher);  // users may have added some
+  }
+  if (is_done) return;
+  few_verdicts.forget();
+  if (own) return own->remove_all_of(proxy, dispatcher);
+  cache->removeOverlappingPairsContainingProxy(&proxy, dispatcher);
+  snapshot.remove_all_of(proxy);
 }
 
 /// True if verdicts say which pairs a proxy has, and it can be destroyed without the World.

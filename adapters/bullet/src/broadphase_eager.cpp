@@ -32,7 +32,7 @@ bool Broadphase::Impl::wants_eager(Proxy& proxy) const {
 }
 
 void Broadphase::Impl::begin_eagerly(Proxy& proxy, const Box& settled, btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy || !wants_eager(proxy)) {
+  if (!computes_pairs || world_is_busy || is_ending || !wants_eager(proxy)) {
     all_have_begun = false;
     return;
   }

@@ -105,6 +105,8 @@ struct Broadphase::Impl {
   bool world_is_busy = false;
   /// True while they run within a call of the World, which can take no changes then.
   bool is_in_world = false;
+  /// True while the pairs of a proxy that is destroyed end. Callbacks may change proxies, but no pair begins.
+  bool is_ending = false;
 
  private:
   class Busy;
@@ -129,6 +131,7 @@ struct Broadphase::Impl {
   bool is_still_quiet();
   bool is_done_by_few(btDispatcher* dispatcher);
   void catch_up();
+  void end_all_of(Proxy& proxy, btDispatcher* dispatcher);
   bool may_end_by_few(btDispatcher* dispatcher);
   void release_in_world(const Proxy& proxy);
   bool is_rule_known() const;

@@ -185,7 +185,7 @@ void Broadphase::Impl::release_user_changes(btDispatcher* dispatcher, bool thoro
 }
 
 void Broadphase::Impl::update_pairs(btDispatcher* dispatcher) {
-  if (!computes_pairs || world_is_busy) return;
+  if (!computes_pairs || world_is_busy || is_ending) return;
   // Before rooms, whose answer would be lost if a callback threw.
   if (own) own->flush_notifications(dispatcher);
   if (rooms.are_open() ? ask_rooms() == RoomsAnswer::nothing : is_still_quiet() || is_done_by_few(dispatcher)) return;

@@ -92,7 +92,8 @@ void PairCache::remove_all_of(Proxy& proxy, btDispatcher* dispatcher) {
 }
 
 bool PairCache::end_all_of(const Proxy& proxy, btDispatcher* dispatcher) {
-  store_.take_out([&](const btBroadphasePair& pair) { return names(pair, proxy); }, pending_removed_);
+  or_fatal(
+      [&] { store_.take_out([&](const btBroadphasePair& pair) { return names(pair, proxy); }, pending_removed_); });
   if (pending_removed_.empty()) return false;
   std::reverse(pending_removed_.begin(), pending_removed_.end());  // as removeOverlappingPairsContainingProxy
   send_notifications(dispatcher);

@@ -43,11 +43,11 @@ class PairCache final : public btOverlappingPairCache {
   /// changes of users before that.
   void remove_all_of(Proxy& proxy, btDispatcher* dispatcher);
 
-  // Where the World is told of pairs later, while they are settled. May throw.
+  // Where the World is told of pairs later, while they are settled.
 
   /// The pairs of a proxy, which then has none until callbacks change pairs. False if there are none.
   bool end_all_of(const Proxy& proxy, btDispatcher* dispatcher);
-  /// Those for which `has_ended(pair)` is true. Notifications are due then.
+  /// Those for which `has_ended(pair)` is true. Notifications are due then. May throw, as the next.
   template <class HasEnded>
   void end(HasEnded&& has_ended) {
     store_.take_out(has_ended, pending_removed_);

@@ -266,6 +266,45 @@ TEST(BulletFewVerdicts, CallbacksOfADestroyedProxysPairs) {
     }
 }
 
+/// A callback throws as a proxy is destroyed where nothing has moved for long, so that it lives on and is not looked
+/// at.
+TEST(BulletFewVerdicts, PairsOfAProxyThatLivesOnAreBack) {
+  bullet::Options options;
+  options.method = Method::hybrid;
+  Pile pile(options, 2);
+  pile.add(pile.places[0]);
+  GhostLog log;
+  pile.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&log);
+  for (int batch = 0; batch < 15; ++batch) pile.calculate();
+  log.on_event = [](const GhostLog::Event&) { throw std::runtime_error("of a callback"); };
+  EXPECT_THROW(pile.broadphase.destroyProxy(pile.proxies[8], nullptr), std::runtime_error);
+  log.on_event = nullptr;
+  pile.calculate();
+  pile.check("it lives on", 0);
+  pile.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(nullptr);
+}
+
+/// A callback has pairs found whenever one ends, also among many.
+TEST(BulletFewVerdicts, DestroyingEndsThoughCallbacksHavePairsFound) {
+  for (const int more : {0, 100}) {
+    Rig rig;
+    GhostLog log;
+    rig.cache().setInternalGhostPairCallback(&log);
+    btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
+    for (int i = 0; i < 3; ++i) rig.create(cube(btScalar(0.5), btScalar(0.1) * btScalar(i), 0));
+    for (int i = 0; i < more; ++i) rig.create(cube(btScalar(10 + 3 * i), 0, 0));
+    rig.calculate();
+    EXPECT_EQ(rig.pair_count(), 6);
+    log.on_event = [&](const GhostLog::Event&) { rig.calculate(); };
+    rig.destroy(a);
+    log.on_event = nullptr;
+    rig.calculate();
+    EXPECT_EQ(rig.pair_count(), 3);
+    EXPECT_EQ(log.standing().size(), 3u);
+    rig.cache().setInternalGhostPairCallback(nullptr);
+  }
+}
+
 /// The World has a pair that has ended since, and verdicts are forgotten at some time before the proxy goes.
 TEST(BulletFewVerdicts, PairsOfTheWorldEndWithTheirProxy) {
   for (int still = 0; still < 60; ++still) {

@@ -152,6 +152,12 @@ class History {
     rig_.broadphase->resetPool(&rig_.dispatcher);
     for (int i = 0; i < 30; ++i) proxies_.push_back(rig_.create(some_box()));
     calculate();
+    for (int round = 0; round < 3; ++round) {
+      rig_.move(any(), some_box());
+      destroy(random_.below(int(proxies_.size())));
+      if (users_change_pairs_ && round == 1) change_pairs(round);
+      calculate();
+    }
     return wrong_;
   }
 
