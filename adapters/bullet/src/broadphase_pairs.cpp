@@ -116,7 +116,10 @@ bool Broadphase::Impl::is_done_by_few(btDispatcher* dispatcher) {
   stats.moved = moved;
   stats.begun = stats.ended = 0;
   stats.search = {};
-  if (answer == FewVerdicts::Answer::nothing) return true;
+  if (answer == FewVerdicts::Answer::nothing) {
+    is_quiet = moved == 0;
+    return true;
+  }
   or_fatal([&] {
     if (few_verdicts.has_any_ended())
       own->end([this](const btBroadphasePair& pair) { return few_verdicts.has_ended(pair); });

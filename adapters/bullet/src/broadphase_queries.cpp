@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/lazy_float_environment.hpp>
 #include <boxstream/detail/ray_slabs.hpp>
 
 #include "broadphase_impl.hpp"
@@ -54,7 +55,7 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
   if (FoundFew::can_look_along_ray(impl_->live)) {
     FoundFew found(impl_->live, impl_->created);
     {
-      const boxstream::detail::DefaultFloatEnvironment environment;
+      const boxstream::detail::LazyFloatEnvironment environment;
       const boxstream::detail::RaySlabs<btScalar> ray(ray_of(rayFrom, rayCallback, aabbMin, aabbMax));
       found.look([&](const Proxy& proxy) {
         const auto box = box_in_world(proxy);
@@ -81,7 +82,7 @@ void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, bt
   if (FoundFew::can_look_at(impl_->live)) {
     FoundFew found(impl_->live, impl_->created);
     {
-      const boxstream::detail::DefaultFloatEnvironment environment;
+      const boxstream::detail::LazyFloatEnvironment environment;
       if (is_valid(box))
         found.look([&](const Proxy& proxy) {
           const auto other = box_of(proxy.m_aabbMin, proxy.m_aabbMax);

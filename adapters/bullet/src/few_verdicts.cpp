@@ -27,11 +27,19 @@ constexpr struct BitOfLane {
 
 }  // namespace
 
+bool FewVerdicts::KeyBox::is_valid() const {
+  constexpr auto infinity = std::bit_cast<Key>(std::numeric_limits<btScalar>::infinity());
+  for (int d = 0; d < 3; ++d)
+    if (lo[d] > hi[d] || lo[d] < ~infinity || hi[d] > infinity) return false;
+  return true;
+}
+
 /// In a form of which compilers make vectors.
-std::uint32_t FewVerdicts::Columns::touching(const Box& box, std::uint32_t size) const {
-  const btScalar min_x = box.min[0], min_y = box.min[1], min_z = box.min[2];
-  const btScalar max_x = box.max[0], max_y = box.max[1], max_z = box.max[2];
-  const std::uint32_t lanes = (size + 7) / 8 * 8;
+std::uint32_t FewVerdicts::Columns::touching(const KeyBox& box, std::uint32_t size) const {
+  const Key min_x = box.lo[0], min_y = box.lo[1], min_z = box.lo[2];
+  const Key max_x = box.hi[0], max_y = box.hi[1], max_z = box.hi[2];
+  constexpr std::uint32_t vector = 4;  // fewer go one by one: to load a vector of numbers just stored takes longer
+  const std::uint32_t lanes = size < vector ? size : (size + 7) / 8 * 8;
   LaneBits touching = 0;
   for (std::uint32_t i = 0; i < lanes; ++i) {
     const bool apart = (lo[0][i] > max_x) | (min_x > hi[0][i]) | (lo[1][i] > max_y) | (min_y > hi[1][i]) |
@@ -56,7 +64,7 @@ void FewVerdicts::note_destroyed(const Proxy& proxy, std::size_t size) {
   const std::uint32_t last_moved = (moved_ & bit(last)) != 0 ? bit(gone) : 0;
   moved_ &= ~(bit(gone) | bit(last));
   if (gone == last) return;
-  boxes_.set(gone, boxes_.get(last));
+  boxes_.move(last, gone);
   moved_ |= last_moved;
   held_[gone] = held_[last];
   for (std::uint32_t others = held_[last]; others != 0; others &= others - 1)
@@ -82,14 +90,13 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs) {
 
 FewVerdicts::Answer FewVerdicts::compare(const Proxies& live, bool by_masks) {
   if (moved_ == 0) return Answer::nothing;
-  const boxstream::detail::DefaultFloatEnvironment environment;
   const auto size = std::uint32_t(live.size());
   const std::uint32_t all = size == 0 ? 0 : ~std::uint32_t{0} >> (most - size);
   Answer answer = Answer::nothing;
   for (std::uint32_t left = moved_; left != 0; left &= left - 1) {
     const auto mover = std::uint32_t(std::countr_zero(left));
-    const Box box = boxes_.get(mover);
-    if (!is_valid(box)) return Answer::unknown;
+    const KeyBox box = boxes_.get(mover);
+    if (!box.is_valid()) return Answer::unknown;
     std::uint32_t changed = (boxes_.touching(box, size) & all & ~bit(mover)) ^ held_[mover];
     for (; changed != 0; changed &= changed - 1) {
       const auto other = std::uint32_t(std::countr_zero(changed));

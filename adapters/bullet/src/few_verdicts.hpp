@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 #include <vector>
 
 #include <boxstream/bullet/precision.hpp>
@@ -65,7 +68,7 @@ class FewVerdicts {
     moved_ = 0;
     if (answer == Answer::pairs)
       note_changes(live, begun);
-    else if (++batches_held_ == patience_)
+    else if (live.size() >= least_in_rooms && ++batches_held_ == patience_)
       let_rooms_try();
     return answer;
   }
@@ -79,26 +82,41 @@ class FewVerdicts {
   void validate(const Proxies& live, PairStore& pairs, bool by_masks) const;
 
  private:
+  /// Integers that compare as the numbers do, so that no floating-point environment has to be entered.
+  using Key = std::conditional_t<sizeof(btScalar) == 4, std::int32_t, std::int64_t>;
+  static Key key(btScalar x) {
+    constexpr Key least = std::numeric_limits<Key>::min();
+    const Key bits = std::bit_cast<Key>(x);
+    return bits == least ? 0 : bits ^ ((bits >> (8 * sizeof(Key) - 1)) & ~least);  // -0 is 0
+  }
+
+  struct KeyBox {
+    Key lo[3], hi[3];
+
+    bool is_valid() const;
+  };
+
   /// Each bound of all boxes.
   struct Columns {
     void set(std::uint32_t position, const Box& box) {
       for (int d = 0; d < 3; ++d) {
-        lo[d][position] = box.min[d];
-        hi[d][position] = box.max[d];
+        lo[d][position] = key(box.min[d]);
+        hi[d][position] = key(box.max[d]);
       }
     }
-    Box get(std::uint32_t position) const {
-      Box box;
+    void move(std::uint32_t from, std::uint32_t to) {
       for (int d = 0; d < 3; ++d) {
-        box.min[d] = lo[d][position];
-        box.max[d] = hi[d][position];
+        lo[d][to] = lo[d][from];
+        hi[d][to] = hi[d][from];
       }
-      return box;
+    }
+    KeyBox get(std::uint32_t position) const {
+      return {{lo[0][position], lo[1][position], lo[2][position]}, {hi[0][position], hi[1][position], hi[2][position]}};
     }
     /// A bit for each of the first `size` boxes that touches this one; others are any.
-    std::uint32_t touching(const Box& box, std::uint32_t size) const;
+    std::uint32_t touching(const KeyBox& box, std::uint32_t size) const;
 
-    btScalar lo[3][most], hi[3][most];
+    Key lo[3][most], hi[3][most];
   };
 
   static std::uint32_t position_of(const btBroadphaseProxy* proxy) {
@@ -119,6 +137,7 @@ class FewVerdicts {
     batches_held_ = 0;
   }
 
+  static constexpr std::size_t least_in_rooms = 4;
   /// In these, rooms are made where boxes only tremble, and memory that many proxies took goes back.
   static constexpr unsigned least_searches = 12;
   static constexpr unsigned least_patience = 16, most_patience = 1024;
