@@ -172,13 +172,19 @@ TEST(BulletFewVerdicts, OrderIsThatOfMany) {
   many.broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(nullptr);
 }
 
+/// With a ghost, for a proxy to be created for, and its callback.
+struct GhostRig : Rig {
+  GhostRig() { cache().setInternalGhostPairCallback(&log); }
+  ~GhostRig() { cache().setInternalGhostPairCallback(nullptr); }
+
+  GhostLog log;
+  btGhostObject ghost;
+};
+
 /// Others come to a ghost in a batch, then it asks for its pairs itself.
 TEST(BulletFewVerdicts, GhostsHearOfEachPairOnce) {
-  Rig rig;
-  GhostLog log;
-  rig.cache().setInternalGhostPairCallback(&log);
-  btGhostObject ghost;
-  btBroadphaseProxy* const at_ghost = rig.create_for(&ghost, cube(0, 0, 0));
+  GhostRig rig;
+  btBroadphaseProxy* const at_ghost = rig.create_for(&rig.ghost, cube(0, 0, 0));
   btBroadphaseProxy* const at_box = rig.create(cube(5, 0, 0));
   for (int frame = 0; frame < 20; ++frame) {
     rig.move(at_box, cube(frame % 4 < 2 ? btScalar(0.5) : 5, 0, 0));
@@ -186,17 +192,13 @@ TEST(BulletFewVerdicts, GhostsHearOfEachPairOnce) {
     rig.move(at_ghost, cube(0, btScalar(0.01) * btScalar(frame % 3), 0));
     EXPECT_EQ(rig.pair_count(), frame % 4 < 2 ? 1 : 0) << frame;
   }
-  EXPECT_EQ(log.adds(), 5);
-  rig.cache().setInternalGhostPairCallback(nullptr);
+  EXPECT_EQ(rig.log.adds(), 5);
 }
 
 /// Users remove and add pairs, and a ghost that moves asks for its own before the next batch decides about those.
 TEST(BulletFewVerdicts, GhostsDoNotMakeUsersChangesLast) {
-  Rig rig;
-  GhostLog log;
-  rig.cache().setInternalGhostPairCallback(&log);
-  btGhostObject ghost;
-  btBroadphaseProxy* const at_ghost = rig.create_for(&ghost, cube(50, 0, 0));
+  GhostRig rig;
+  btBroadphaseProxy* const at_ghost = rig.create_for(&rig.ghost, cube(50, 0, 0));
   btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
   btBroadphaseProxy* const b = rig.create(cube(btScalar(0.5), 0, 0));
   btBroadphaseProxy* const far = rig.create(cube(20, 0, 0));
@@ -210,7 +212,6 @@ TEST(BulletFewVerdicts, GhostsDoNotMakeUsersChangesLast) {
   rig.move(far, cube(0, btScalar(0.5), 0));
   rig.calculate();
   EXPECT_EQ(rig.pair_count(), 3);
-  rig.cache().setInternalGhostPairCallback(nullptr);
 }
 
 TEST(BulletFewVerdicts, TheOnlyPairIsRemovedByItsUser) {
@@ -229,11 +230,8 @@ TEST(BulletFewVerdicts, TheOnlyPairIsRemovedByItsUser) {
 TEST(BulletFewVerdicts, CallbacksOfADestroyedProxysPairs) {
   for (const int what : {0, 1, 2})
     for (const bool lags : {false, true}) {
-      Rig rig;
-      GhostLog log;
-      rig.cache().setInternalGhostPairCallback(&log);
-      btGhostObject ghost;
-      btBroadphaseProxy* const at_ghost = rig.create_for(&ghost, cube(50, 0, 0));
+      GhostRig rig;
+      btBroadphaseProxy* const at_ghost = rig.create_for(&rig.ghost, cube(50, 0, 0));
       btBroadphaseProxy* const middle = rig.create(cube(0, 0, 0));
       btBroadphaseProxy* const one = rig.create(cube(btScalar(0.5), 0, 0));
       btBroadphaseProxy* const other = rig.create(cube(0, btScalar(0.5), 0));
@@ -242,7 +240,7 @@ TEST(BulletFewVerdicts, CallbacksOfADestroyedProxysPairs) {
         rig.calculate();
       }
       bool is_first = true;
-      log.on_event = [&](const GhostLog::Event&) {
+      rig.log.on_event = [&](const GhostLog::Event&) {
         if (!std::exchange(is_first, false)) return;
         if (what == 0) throw std::runtime_error("of a callback");
         if (what == 1) rig.move(at_ghost, cube(0, 0, btScalar(0.5)));
@@ -257,12 +255,11 @@ TEST(BulletFewVerdicts, CallbacksOfADestroyedProxysPairs) {
       rig.calculate();
       EXPECT_TRUE(rig.holds(one, other));
       EXPECT_EQ(rig.pair_count(), what == 1 ? 3 : 1);
-      log.on_event = nullptr;
+      rig.log.on_event = nullptr;
       rig.destroy(one);
       for (int batch = 0; batch < 3; ++batch) rig.calculate();
       EXPECT_EQ(rig.pair_count(), what == 1 ? 1 : 0);
-      EXPECT_EQ(log.standing().size(), what == 1 ? 1u : 0u);
-      rig.cache().setInternalGhostPairCallback(nullptr);
+      EXPECT_EQ(rig.log.standing().size(), what == 1 ? 1u : 0u);
     }
 }
 
@@ -287,21 +284,18 @@ TEST(BulletFewVerdicts, PairsOfAProxyThatLivesOnAreBack) {
 /// A callback has pairs found whenever one ends, also among many.
 TEST(BulletFewVerdicts, DestroyingEndsThoughCallbacksHavePairsFound) {
   for (const int more : {0, 100}) {
-    Rig rig;
-    GhostLog log;
-    rig.cache().setInternalGhostPairCallback(&log);
+    GhostRig rig;
     btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
     for (int i = 0; i < 3; ++i) rig.create(cube(btScalar(0.5), btScalar(0.1) * btScalar(i), 0));
     for (int i = 0; i < more; ++i) rig.create(cube(btScalar(10 + 3 * i), 0, 0));
     rig.calculate();
     EXPECT_EQ(rig.pair_count(), 6);
-    log.on_event = [&](const GhostLog::Event&) { rig.calculate(); };
+    rig.log.on_event = [&](const GhostLog::Event&) { rig.calculate(); };
     rig.destroy(a);
-    log.on_event = nullptr;
+    rig.log.on_event = nullptr;
     rig.calculate();
     EXPECT_EQ(rig.pair_count(), 3);
-    EXPECT_EQ(log.standing().size(), 3u);
-    rig.cache().setInternalGhostPairCallback(nullptr);
+    EXPECT_EQ(rig.log.standing().size(), 3u);
   }
 }
 
