@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include <boxstream/aabb.hpp>
-#include <boxstream/detail/ray_slabs.hpp>
 #include <boxstream/span.hpp>
+#include "bvh/ray_slabs.hpp"
 
 namespace boxstream::detail {
 

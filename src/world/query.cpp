@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <boxstream/detail/float_environment.hpp>
+#include <boxstream/detail/lazy_float_environment.hpp>
 
 #include "base/bits.hpp"
 #include "base/keys.hpp"
@@ -19,19 +20,21 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   const InUse::Read read(impl_->in_use_);
   const BoxKeys<S> keys(box);
   if (!keys.are_valid()) return;
-  const FewBoxes<S>& few = impl_->proxies_.few();
-  if (few.is_kept()) {
+  if (impl_->scans_few()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
-    const std::size_t words = few.find_touching(keys, impl_->proxies_.ranks(), bits);
+    const std::size_t words = impl_->proxies_.few().find_touching(keys, impl_->proxies_.ranks(), bits);
     for_each_index(bits, words, [&](std::uint32_t rank) { return visit(impl_->proxies_.id(rank)); });
     return;
   }
   const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
-  DefaultFloatEnvironment environment;
+  LazyFloatEnvironment environment;  // which comparisons leave without a flag
   bvh.for_each_overlap(box, [&](std::uint32_t slot) {
     const std::uint32_t rank = impl_->proxies_.rank_of_slot(slot);
     if (!overlap_by_keys(box, impl_->proxies_.box(rank))) return true;
-    return environment.outside([&] { return visit(impl_->proxies_.id(rank)); });
+    environment.go_out();
+    if (!visit(impl_->proxies_.id(rank))) return false;
+    environment.come_in();
+    return true;
   });
 }
 
@@ -52,11 +55,19 @@ void BasicWorld<S>::query_planes(Span<const BasicPlane<S>> planes, ProxyVisitor 
 
 namespace {
 
-/// Few boxes compared one by one. Only what is computed needs the default environment: visitors are called in the
-/// caller's, where lengths are compared by keys.
+/// False for a ray that is not for few boxes. Only what is computed needs the default environment: visitors are called
+/// in the caller's, where lengths are compared by keys.
 template <class S>
-void visit_hits_of_few(const ProxyTable<S>& proxies, const S (&enter)[FewBoxes<S>::most_lanes],
-                       const std::uint64_t* hits, std::size_t words, S length, RayVisitor<S> visit) {
+bool visit_hits_of_few(const ProxyTable<S>& proxies, const BasicRay<S>& ray, RayVisitor<S> visit) {
+  std::uint64_t hits[FewBoxes<S>::most_words];
+  S enter[FewBoxes<S>::most_lanes];
+  std::optional<DefaultFloatEnvironment> environment(std::in_place);
+  const RaySlabs<S> slabs(ray);
+  if (slabs.hits_nothing) return true;
+  if (slabs.is_long[0] || slabs.is_long[1] || slabs.is_long[2]) return false;
+  const std::size_t words = proxies.few().find_hits(slabs, proxies.ranks(), enter, hits);
+  S length = slabs.length;
+  environment.reset();
   for_each_index(hits, words, [&](std::uint32_t rank) {
     if (order_key(enter[rank]) > order_key(length)) return true;  // clipped since
     const S clipped = visit(proxies.id(rank), enter[rank], length);
@@ -64,6 +75,7 @@ void visit_hits_of_few(const ProxyTable<S>& proxies, const S (&enter)[FewBoxes<S
     if (key < order_key(length)) length = clipped;
     return key >= 0 && key <= infinity_key<S>;  // false for NaN
   });
+  return true;
 }
 
 }  // namespace
@@ -71,21 +83,13 @@ void visit_hits_of_few(const ProxyTable<S>& proxies, const S (&enter)[FewBoxes<S
 template <class S>
 void BasicWorld<S>::query_ray(const BasicRay<S>& ray, RayVisitor<S> visit) const {
   const InUse::Read read(impl_->in_use_);
-  std::optional<DefaultFloatEnvironment> environment(std::in_place);
+  if (impl_->scans_few() && visit_hits_of_few(impl_->proxies_, ray, visit)) return;
+  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
+  DefaultFloatEnvironment environment;
   const RaySlabs<S> slabs(ray);
   if (slabs.hits_nothing) return;
-  const FewBoxes<S>& few = impl_->proxies_.few();
-  if (!slabs.is_long[0] && !slabs.is_long[1] && !slabs.is_long[2] && impl_->scans_few()) {
-    std::uint64_t bits[FewBoxes<S>::most_words];
-    S enter[FewBoxes<S>::most_lanes];
-    const std::size_t words = few.find_hits(slabs, impl_->proxies_.ranks(), enter, bits);
-    environment.reset();
-    visit_hits_of_few(impl_->proxies_, enter, bits, words, slabs.length, visit);
-    return;
-  }
-  const Bvh<S>& bvh = impl_->index_.fresh(impl_->proxies_);
   bvh.for_each_hit(slabs, [&](std::uint32_t slot, S enter, S length) {
-    return environment->outside([&] { return visit(impl_->id_of_slot(slot), enter, length); });
+    return environment.outside([&] { return visit(impl_->id_of_slot(slot), enter, length); });
   });
 }
 

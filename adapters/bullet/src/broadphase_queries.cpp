@@ -9,12 +9,13 @@
 
 #include <boxstream/detail/float_environment.hpp>
 #include <boxstream/detail/lazy_float_environment.hpp>
-#include <boxstream/detail/ray_slabs.hpp>
 
 #include "broadphase_impl.hpp"
 #include "fatal.hpp"
 #include "found.hpp"
 #include "found_few.hpp"
+#include "lanes.hpp"
+#include "plain_ray.hpp"
 
 namespace boxstream::bullet {
 inline namespace BOXSTREAM_BULLET_PRECISION {
@@ -35,43 +36,55 @@ void copy(const btVector3& from, btScalar (&to)[3]) {
   to[2] = from.z();
 }
 
-BasicRay<btScalar> ray_of(const btVector3& from, const btBroadphaseRayCallback& callback, const btVector3& extent_min,
-                          const btVector3& extent_max) {
-  BasicRay<btScalar> ray;
-  copy(from, ray.origin);
-  copy(callback.m_rayDirectionInverse, ray.inverse_direction);
-  copy(extent_min, ray.extent_min);
-  copy(extent_max, ray.extent_max);
-  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing. With a negative length
-  // Bullet's own still report boxes around the origin.
-  ray.length = at_least_zero(callback.m_lambda_max);
-  return ray;
+/// False for a ray that only the World can follow.
+bool look_along(const PlainRay& ray, FoundFew& found) {
+  const boxstream::detail::LazyFloatEnvironment environment;
+  if (!ray.is_plain()) return false;
+  found.look([&](const Proxy& proxy) {
+    if (proxy.margin == 0)
+      return ray.meets({proxy.m_aabbMin, proxy.m_aabbMax}) && is_valid(box_of(proxy.m_aabbMin, proxy.m_aabbMax));
+    const auto [min, max] = box_in_world(proxy);
+    return ray.meets({{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}) && is_valid(box_in_world(proxy));
+  });
+  return true;
+}
+
+void look_at(const BasicAabb<btScalar>& box, FoundFew& found) {
+  const boxstream::detail::LazyFloatEnvironment environment;
+  if (!is_valid(box)) return;
+  const Lanes min{box.min[0], box.min[1], box.min[2]}, max{box.max[0], box.max[1], box.max[2]};
+  found.look([&](const Proxy& proxy) {
+    const BoxLanes other(proxy.m_aabbMin, proxy.m_aabbMax);
+    return !has_any_of_three((other.min > max) | (min > other.max)) &&
+           is_valid(box_of(proxy.m_aabbMin, proxy.m_aabbMax));
+  });
 }
 
 }  // namespace
 
 void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphaseRayCallback& rayCallback,
                          const btVector3& aabbMin, const btVector3& aabbMax) {
-  if (FoundFew::can_look_along_ray(impl_->live)) {
+  // A ray of no length has a NaN direction in release builds of Bullet, and meets nothing. With a negative length
+  // Bullet's own still report boxes around the origin.
+  const btScalar length = at_least_zero(rayCallback.m_lambda_max);
+  if (FoundFew::can_look(impl_->live)) {
     FoundFew found(impl_->live, impl_->created);
-    {
-      const boxstream::detail::LazyFloatEnvironment environment;
-      const boxstream::detail::RaySlabs<btScalar> ray(ray_of(rayFrom, rayCallback, aabbMin, aabbMax));
-      found.look([&](const Proxy& proxy) {
-        const auto box = box_in_world(proxy);
-        return ray.meets(box) && is_valid(box);
-      });
-    }
-    return found.report(rayCallback);
+    const PlainRay ray(rayFrom, rayCallback.m_rayDirectionInverse, length, aabbMin, aabbMax);
+    if (look_along(ray, found)) return found.report(rayCallback);
   }
-  const BasicRay<btScalar> ray = ray_of(rayFrom, rayCallback, aabbMin, aabbMax);
+  BasicRay<btScalar> ray;
+  copy(rayFrom, ray.origin);
+  copy(rayCallback.m_rayDirectionInverse, ray.inverse_direction);
+  copy(aabbMin, ray.extent_min);
+  copy(aabbMax, ray.extent_max);
+  ray.length = length;
   impl_->flush_pending();
   const Impl& impl = *impl_;
   Found found(impl.spare_lists);
   or_fatal([&] {
-    impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar length) {
+    impl.world.query_ray(ray, [&](ProxyId id, btScalar, btScalar to) {
       found.add(id);
-      return length;
+      return to;
     });
   });
   found.report(rayCallback, [&](ProxyId id) { return live_proxy_of(impl.world, id); });
@@ -79,26 +92,22 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
 
 void Broadphase::aabbTest(const btVector3& aabbMin, const btVector3& aabbMax, btBroadphaseAabbCallback& callback) {
   const auto box = box_of(aabbMin, aabbMax);
-  if (FoundFew::can_look_at(impl_->live)) {
+  if (FoundFew::can_look(impl_->live)) {
     FoundFew found(impl_->live, impl_->created);
-    {
-      const boxstream::detail::LazyFloatEnvironment environment;
-      if (is_valid(box))
-        found.look([&](const Proxy& proxy) {
-          const auto other = box_of(proxy.m_aabbMin, proxy.m_aabbMax);
-          return overlaps(box, other) && is_valid(other);
-        });
-    }
+    look_at(box, found);
     return found.report(callback);
   }
   impl_->flush_pending();
   const Impl& impl = *impl_;
   Found found(impl.spare_lists);
-  or_fatal([&] {
+  const auto meets = [&](const Proxy& proxy) {
+    if (impl.is_exact_in_world(proxy)) return true;
     const boxstream::detail::DefaultFloatEnvironment environment;
+    return overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax));
+  };
+  or_fatal([&] {
     impl.world.query_box(box, [&](ProxyId id) {
-      const Proxy& proxy = impl.proxy_of(id);
-      if (impl.is_exact_in_world(proxy) || overlaps(box, box_of(proxy.m_aabbMin, proxy.m_aabbMax))) found.add(id);
+      if (meets(impl.proxy_of(id))) found.add(id);
       return true;
     });
   });

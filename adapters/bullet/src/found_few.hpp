@@ -20,8 +20,7 @@ class FoundFew {
  public:
   using Proxies = std::vector<Proxy*>;
 
-  static bool can_look_at(const Proxies& live) { return live.size() <= most; }
-  static bool can_look_along_ray(const Proxies& live) { return live.size() <= most_along_ray; }
+  static bool can_look(const Proxies& live) { return live.size() <= most; }
 
   /// `created` counts proxies, ever. Both are what they are now whenever this uses them.
   FoundFew(const Proxies& live, const std::uint64_t& created)
@@ -41,7 +40,7 @@ class FoundFew {
   }
 
  private:
-  static constexpr std::size_t most = 16, most_along_ray = 4;
+  static constexpr std::size_t most = 12;
 
   struct Place {
     const Proxy* proxy;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "world/state/few_boxes.cpp"
@@ -62,24 +63,28 @@ HWY_INLINE std::uint64_t word_of(FewColumns<Key> columns, const Bounds<Narrow<Ke
   return meeting;
 }
 
-template <class S>
-HWY_INLINE void touching(const FewColumns<decltype(order_key(S()))>& columns, const BoxKeys<S>& box, std::size_t size,
+template <class Key>
+HWY_INLINE void touching(const FewColumns<Key>& columns, const Bounds<Narrow<Key> >& one, std::size_t size,
                          std::uint64_t* bits) {
-  using Key = decltype(order_key(S()));
-  const Narrow<Key> d;
-  Bounds<Narrow<Key> > one;
-  for (int axis = 0; axis < 3; ++axis) {
-    one.lo[axis] = hn::Set(d, box.lo(axis));
-    one.hi[axis] = hn::Set(d, box.hi(axis));
-  }
   for (std::size_t at = 0; at < size; at += 64) *bits++ = word_of(columns, one, at, std::min(size, at + 64));
+}
+
+template <class S>
+HWY_INLINE auto bounds_of(const BoxKeys<S>& box) {
+  const Narrow<decltype(order_key(S()))> d;
+  Bounds<Narrow<decltype(order_key(S()))> > bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.lo[axis] = hn::Set(d, box.lo(axis));
+    bounds.hi[axis] = hn::Set(d, box.hi(axis));
+  }
+  return bounds;
 }
 
 template <class Key>
 HWY_INLINE void row(const FewColumns<Key>& columns, std::uint32_t rank, std::size_t size, std::uint64_t* bits) {
   Bounds<Narrow<Key> > one;
   one.repeat(columns, rank);
-  for (std::size_t at = 0; at < size; at += 64) *bits++ = word_of(columns, one, at, std::min(size, at + 64));
+  touching(columns, one, size, bits);
 }
 
 template <class Key>
@@ -95,13 +100,89 @@ HWY_INLINE void rows(const FewColumns<Key>& columns, std::size_t size, std::uint
   }
 }
 
-/// Keys to numbers, and to zero in inert lanes.
+/// Keys to numbers.
 template <class S, class DK>
-HWY_INLINE hn::VFromD<hn::Rebind<S, DK> > number_of(DK d, const hn::TFromD<DK>* keys, hn::VFromD<DK> inert) {
+HWY_INLINE hn::VFromD<hn::Rebind<S, DK> > number_of(DK d, const hn::TFromD<DK>* keys) {
+  const hn::RebindToUnsigned<DK> du;
   const auto key = hn::Load(d, keys);
-  const auto bits = hn::Xor(key, hn::And(hn::BroadcastSignBit(key), hn::Set(d, hwy::LimitsMax<hn::TFromD<DK> >())));
-  return hn::BitCast(hn::Rebind<S, DK>(), hn::AndNot(inert, bits));
+  const auto but_sign = hn::ShiftRight<1>(hn::BitCast(du, hn::BroadcastSignBit(key)));
+  return hn::BitCast(hn::Rebind<S, DK>(), hn::Xor(key, hn::BitCast(d, but_sign)));
 }
+
+/// And back, but for -0, of which it makes less than 0.
+template <class DS>
+HWY_INLINE auto key_of(DS, hn::VFromD<DS> number) {
+  const hn::RebindToSigned<DS> d;
+  const hn::RebindToUnsigned<DS> du;
+  const auto bits = hn::BitCast(d, number);
+  const auto but_sign = hn::ShiftRight<1>(hn::BitCast(du, hn::BroadcastSignBit(bits)));
+  return hn::Xor(bits, hn::BitCast(d, but_sign));
+}
+
+/// A box that meets each box that a ray which `is_plain` meets: all its points, and more than tests of it round.
+template <class S>
+HWY_INLINE auto swept(const RaySlabs<S>& ray) {
+  using Key = decltype(order_key(S()));
+  const hn::Rebind<S, Narrow<Key> > ds;
+  const auto rounding = hn::Set(ds, 16 * std::numeric_limits<S>::epsilon());
+  const auto length = hn::Set(ds, ray.length + std::numeric_limits<S>::min());
+  Bounds<Narrow<Key> > box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto origin = hn::Set(ds, ray.origin[axis]), way = hn::Div(length, hn::Set(ds, ray.inverse[axis]));
+    const auto reach_lo = hn::Set(ds, ray.reach_lo[axis]), reach_hi = hn::Set(ds, ray.reach_hi[axis]);
+    const auto sizes = hn::Add(hn::Add(hn::Abs(origin), hn::Abs(way)), hn::Add(hn::Abs(reach_lo), hn::Abs(reach_hi)));
+    const auto slack = hn::Mul(rounding, sizes);
+    const auto least = hn::Add(origin, hn::Min(way, hn::Zero(ds))), most = hn::Add(origin, hn::Max(way, hn::Zero(ds)));
+    box.lo[axis] = key_of(ds, hn::Sub(hn::Add(least, reach_hi), slack));
+    box.hi[axis] = key_of(ds, hn::Add(hn::Add(most, reach_lo), slack));
+  }
+  return box;
+}
+
+/// A ray that `is_plain`, as vectors: no axis is special, and no time a NaN.
+template <class S, bool has_reach>
+class PlainRay {
+  using Key = decltype(order_key(S()));
+  using D = Narrow<Key>;
+  using DS = hn::Rebind<S, D>;
+
+ public:
+  PlainRay(const FewColumns<Key>& columns, const RaySlabs<S>& ray)
+      : first_lo_(columns.lo[0]), first_hi_(columns.hi[0]), length_(hn::Set(DS(), ray.length)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool backwards = ray.inverse[axis] < 0;
+      near_[axis] = backwards ? columns.hi[axis] : columns.lo[axis];
+      far_[axis] = backwards ? columns.lo[axis] : columns.hi[axis];
+      near_reach_[axis] = backwards ? ray.reach_hi[axis] : ray.reach_lo[axis];
+      far_reach_[axis] = backwards ? ray.reach_lo[axis] : ray.reach_hi[axis];
+      origin_[axis] = hn::Set(DS(), ray.origin[axis]);
+      inverse_[axis] = hn::Set(DS(), ray.inverse[axis]);
+    }
+  }
+
+  /// As `missed`.
+  HWY_INLINE std::uint64_t misses(std::size_t at, S* enters) const {
+    auto enter = hn::Zero(DS()), leave = length_;
+    for (int axis = 0; axis < 3; ++axis) {
+      enter = hn::Max(crossing(near_[axis] + at, near_reach_[axis], axis), enter);
+      leave = hn::Min(crossing(far_[axis] + at, far_reach_[axis], axis), leave);
+    }
+    hn::StoreU(enter, DS(), enters + at);
+    const auto is_inert = hn::Gt(hn::Load(D(), first_lo_ + at), hn::Load(D(), first_hi_ + at));
+    return bits_of(DS(), hn::Or(hn::RebindMask(DS(), is_inert), hn::Gt(enter, leave)));
+  }
+
+ private:
+  HWY_INLINE hn::VFromD<DS> crossing(const Key* bounds, S reach, int axis) const {
+    auto bound = number_of<S>(D(), bounds);
+    if constexpr (has_reach) bound = hn::Sub(bound, hn::Set(DS(), reach));
+    return hn::Mul(hn::Sub(bound, origin_[axis]), inverse_[axis]);
+  }
+
+  const Key *first_lo_, *first_hi_, *near_[3], *far_[3];
+  S near_reach_[3], far_reach_[3];
+  hn::VFromD<DS> origin_[3], inverse_[3], length_;
+};
 
 /// Bits of the lanes from `at` on that the ray misses. As BoxBlock::hit.
 template <class S>
@@ -111,13 +192,12 @@ HWY_INLINE std::uint64_t missed(const FewColumns<decltype(order_key(S()))>& colu
   const Narrow<Key> d;
   const hn::Rebind<S, Narrow<Key> > ds;
   const auto is_inert = hn::Gt(hn::Load(d, columns.lo[0] + at), hn::Load(d, columns.hi[0] + at));
-  const auto inert = hn::VecFromMask(d, is_inert);
   auto outside = hn::RebindMask(ds, is_inert);
   auto enter = hn::Zero(ds), leave = hn::Set(ds, ray.length);
   for (int axis = 0; axis < 3; ++axis) {
     const auto origin = hn::Set(ds, ray.origin[axis]);
-    const auto lo = number_of<S>(d, columns.lo[axis] + at, inert);
-    const auto hi = number_of<S>(d, columns.hi[axis] + at, inert);
+    const auto lo = number_of<S>(d, columns.lo[axis] + at);
+    const auto hi = number_of<S>(d, columns.hi[axis] + at);
     const auto below = hn::Sub(hn::Sub(lo, hn::Set(ds, ray.reach_lo[axis])), origin);
     const auto above = hn::Sub(hn::Sub(hi, hn::Set(ds, ray.reach_hi[axis])), origin);
     if (ray.parallel[axis]) {
@@ -136,17 +216,38 @@ HWY_INLINE std::uint64_t missed(const FewColumns<decltype(order_key(S()))>& colu
   return bits_of(ds, hn::Or(outside, hn::Gt(enter, leave)));
 }
 
-/// Those of the boxes in `bits` that the ray meets.
-template <class S>
-HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const RaySlabs<S>& ray, std::size_t size,
-                     S* enters, std::uint64_t* bits) {
-  constexpr std::size_t step = hn::MaxLanes(Narrow<decltype(order_key(S()))>());
+/// Leaves those of the boxes in `bits` that the ray meets. `misses(at)` gives bits of the lanes from there on.
+template <class Key, class Misses>
+HWY_INLINE void leave_hits(std::size_t size, std::uint64_t* bits, Misses&& misses) {
+  constexpr std::size_t step = hn::MaxLanes(Narrow<Key>());
   for (std::size_t at = 0; at < size; ++bits) {
     std::uint64_t word = *bits;
     for (const std::size_t end = std::min(size, at + 64); at < end; at += step)
-      if ((word >> at % 64 & ((1u << step) - 1)) != 0) word &= ~(missed(columns, ray, at, enters) << at % 64);
+      if ((word >> at % 64 & ((1u << step) - 1)) != 0) word &= ~(misses(at) << at % 64);
     *bits = word;
   }
+}
+
+template <class S>
+HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const RaySlabs<S>& ray, std::size_t size,
+                     S* enters, std::uint64_t* bits) {
+  using Key = decltype(order_key(S()));
+  const auto leave_plain_hits = [&](const auto& plain) {
+    leave_hits<Key>(size, bits, [&](std::size_t at) { return plain.misses(at, enters); });
+  };
+  // To compare with what is swept takes a fifth of a test, and spares most of them, for boxes seldom go far.
+  constexpr std::size_t few = 16;
+  const bool is_box = ray.is_plain && ray.has_reach();
+  if (is_box && size > few)
+    touching(columns, swept(ray), size, bits);
+  else
+    set_first(bits, size);
+  if (!ray.is_plain)
+    leave_hits<Key>(size, bits, [&](std::size_t at) { return missed(columns, ray, at, enters); });
+  else if (is_box)
+    leave_plain_hits(PlainRay<S, true>(columns, ray));
+  else
+    leave_plain_hits(PlainRay<S, false>(columns, ray));
 }
 
 #define BOXSTREAM_FEW_BOXES(S, K)                                                                                \
@@ -156,7 +257,7 @@ HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const 
   }                                                                                                              \
   HWY_ATTR void Touching##K(const FewColumns<std::int##K##_t>& columns, const BoxKeys<S>& box, std::size_t size, \
                             std::uint64_t* bits) {                                                               \
-    touching(columns, box, size, bits);                                                                          \
+    touching(columns, bounds_of(box), size, bits);                                                               \
   }                                                                                                              \
   HWY_ATTR void Row##K(const FewColumns<std::int##K##_t>& columns, std::uint32_t rank, std::size_t size,         \
                        std::uint64_t* bits) {                                                                    \
@@ -247,18 +348,10 @@ void FewBoxes<S>::find_rows(std::size_t size, std::uint64_t* rows) const {
     HWY_DYNAMIC_DISPATCH(Rows64)(columns_, size, rows);
 }
 
-/// To compare with the box of a ray takes a fifth of a test, and spares most of them if the ray is short.
-template <class S>
-void FewBoxes<S>::keep_swept(const RaySlabs<S>& ray, std::size_t size, std::uint64_t* bits) const {
-  if (const BoxKeys<S> swept(ray.swept()); swept.are_valid()) find_touching(swept, size, bits);
-}
-
 template <class S>
 std::size_t FewBoxes<S>::find_hits(const RaySlabs<S>& ray, std::size_t size, S (&enter)[most_lanes],
                                    std::uint64_t* bits) const {
   assert(size <= lanes_ && !ray.is_long[0] && !ray.is_long[1] && !ray.is_long[2]);
-  set_first(bits, size);
-  if (constexpr std::size_t few = 32; size > few && ray.has_extent()) keep_swept(ray, size, bits);
   if constexpr (sizeof(S) == 4)
     HWY_DYNAMIC_DISPATCH(Hits32)(columns_, ray, size, enter, bits);
   else

@@ -143,7 +143,6 @@ class FewBoxes {
   /// Whole vectors of every target, of which none has more than a cache line.
   static constexpr std::size_t lanes_of(std::size_t size) { return (size + line - 1) / line * line; }
   void resize(Span<const Box> boxes, std::size_t size);
-  void keep_swept(const RaySlabs<S>& ray, std::size_t size, std::uint64_t* bits) const;
 
   bool is_kept_ = true;
   std::size_t lanes_ = 0;  // whole vectors

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <boxstream/cxx17.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,41 +40,10 @@ struct RaySlabs {
     if (!is_plain) look_closer();
   }
 
-  /// Whether it meets a box that is valid: as BoxBlock::hit.
-  bool meets(const BasicAabb<S>& box) const {
-    if (hits_nothing) return false;
-    S enter = 0, leave = length;
-    for (int d = 0; d < 3; ++d) {
-      if (!is_plain && parallel[d]) {
-        if (box.min[d] - reach_lo[d] - origin[d] > 0 || box.max[d] - reach_hi[d] - origin[d] < 0) return false;
-        continue;
-      }
-      S t_near = crossing(box.min[d], reach_lo[d], d), t_far = crossing(box.max[d], reach_hi[d], d);
-      if (inverse[d] < 0) std::swap(t_near, t_far);
-      enter = t_near > enter ? t_near : enter;
-      leave = t_far < leave ? t_far : leave;
-    }
-    return enter <= leave;
-  }
-
-  /// A box that meets each box that the ray meets by the tests below: all its points, and more than these round. May be
-  /// invalid, which says nothing.
-  BasicAabb<S> swept() const {
-    constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
-    BasicAabb<S> box;
-    for (int d = 0; d < 3; ++d) {
-      const S way = parallel[d] ? 0 : (length + std::numeric_limits<S>::min()) / inverse[d];
-      const S slack = rounding * (std::abs(origin[d]) + std::abs(way) + std::abs(reach_lo[d]) + std::abs(reach_hi[d]));
-      box.min[d] = origin[d] + (way < 0 ? way : 0) + reach_hi[d] - slack;
-      box.max[d] = origin[d] + (way < 0 ? 0 : way) + reach_lo[d] + slack;
-    }
-    return box;
-  }
-
   /// True for a box that is swept, which seldom goes far.
-  bool has_extent() const {
+  bool has_reach() const {
     bool is_point = true;
-    for (int d = 0; d < 3; ++d) is_point &= reach_lo[d] == reach_hi[d];
+    for (int d = 0; d < 3; ++d) is_point &= (reach_lo[d] == 0) & (reach_hi[d] == 0);
     return !is_point;
   }
 
@@ -89,23 +56,21 @@ struct RaySlabs {
   }
 
  private:
-  S crossing(S bound, S reach, int d) const {
-    return !is_plain && is_long[d] ? far_crossing(bound, reach, d) : (bound - reach - origin[d]) * inverse[d];
-  }
-
-  /// No axis is parallel or long, and all are numbers, by sums that are none where something is not. Most rays are so,
-  /// and what makes others special takes longer to tell than a few boxes to test.
+  /// No axis is parallel or long, what is swept is a box, and all are numbers, by sums that are none where something is
+  /// not. Most rays are so, and what makes others special takes longer to tell than a few boxes to test.
   bool is_ordinary() const {
     constexpr S quarter = std::numeric_limits<S>::max() / 4, inf = std::numeric_limits<S>::infinity();
     S turns = 0, least = inf, far = 0;
+    bool is_box = true;
     for (int d = 0; d < 3; ++d) {
       const S turn = std::abs(inverse[d]);
       turns += turn;
       least = turn < least ? turn : least;
       far += std::abs(origin[d]) + std::abs(reach_lo[d]) + std::abs(reach_hi[d]);
+      is_box &= reach_hi[d] <= reach_lo[d];
     }
     // A product that overflows would raise a flag, and to take it back takes longer than all of this.
-    return least > 0 && turns < inf && far <= quarter && length <= quarter * (least < 1 ? least : 1);
+    return is_box && least > 0 && turns < inf && far <= quarter && length <= quarter * (least < 1 ? least : 1);
   }
 
   void look_closer() {
