@@ -137,7 +137,7 @@ std::uint64_t BasicWorld<S>::user(ProxyId id) const {
 /// For `more` proxies.
 template <class S>
 void WorldParts<S>::make_room(std::size_t more) {
-  if (proxies_.needs_compaction()) drop_tombstones();
+  if (proxies_.needs_compaction() || proxies_.crowds_few(more)) drop_tombstones();
   proxies_.reserve(more);
   index_.reserve_slots(proxies_.slots_after(more));
 }

@@ -292,6 +292,14 @@ class ProxyTable {
     return dead_count_ > thresholds.most_dead + 2 * kept_count_ && dead_count_ > boxes_.size() / 4;
   }
 
+  /// True if with `more` there would be too many for columns only as tombstones are counted, which are worth a
+  /// compaction.
+  bool crowds_few(std::size_t more) const {
+    constexpr std::size_t most = FewBoxes<S>::most;
+    return few_.is_kept() && boxes_.size() + more > most && live() + more <= most &&
+           dead_count_ > kept_count_ + most / 16;
+  }
+
   /// Upper bound of all slots after `more` creations.
   std::size_t slots_after(std::size_t more) const { return slots_.size() + new_slots(more); }
 
