@@ -104,10 +104,11 @@ void Broadphase::Impl::end_all_of(Proxy& proxy, btDispatcher* dispatcher) {
   } const ending{is_ending};
   bool is_done = false;
   while (!is_done && may_end_by_few(dispatcher)) {
+    const bool holds_any = few_verdicts.hold_any(proxy);
     release_in_world(proxy);
     few_verdicts.note_alone(proxy);
-    surroundings.forget_held();
-    is_done = !own->end_all_of(proxy, dispatcher);  // users may have added some
+    if (holds_any) surroundings.forget_held();
+    is_done = !holds_any || !own->end_all_of(proxy, dispatcher);  // users may have added some
   }
   if (is_done) return;
   few_verdicts.forget();
@@ -127,8 +128,7 @@ bool Broadphase::Impl::may_end_by_few(btDispatcher* dispatcher) {
 void Broadphase::Impl::release_in_world(const Proxy& proxy) {
   if (!proxy.id || world.pair_count() == 0) return;
   or_fatal([&] {
-    for (const Proxy* other : live)
-      if (world_lags || few_verdicts.are_held(proxy, *other)) world.release(proxy.id, other->id);
+    few_verdicts.for_each_in_world(live, proxy, [&](const Proxy& other) { world.release(proxy.id, other.id); });
   });
 }
 
@@ -202,6 +202,7 @@ void Broadphase::Impl::shrink_to_fit() {
     live.shrink_to_fit();
     pending.shrink_to_fit(live.capacity());
   });
+  few_verdicts.shrink_to_fit();
   rooms.give_back();
   surroundings.forget();
   spare_lists.clear();

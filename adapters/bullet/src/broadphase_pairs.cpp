@@ -164,6 +164,7 @@ void Broadphase::Impl::catch_up() {
   world.update_told(begun, ended, [](ProxyId, ProxyId) { return true; });
   for (const auto* told : {&begun, &ended})
     for (const ProxyPair& pair : *told) decide_anew(pair.a, pair.b);
+  few_verdicts.note_told(live.size());
   world_lags = false;
 }
 
@@ -242,7 +243,7 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     answered = 0;
     follow_rooms();
     if (are_searched && pending.empty())
-      few_verdicts.learn(live, own->store());
+      few_verdicts.learn(live, own->store(), stats.moved);
     else
       few_verdicts.forget();
   }

@@ -91,7 +91,7 @@ void Broadphase::Impl::validate() {
   rooms.validate(live, world, own && own->getOverlapFilterCallback() != nullptr);
   if (!rooms.are_open()) surroundings.validate(live, world);
   if (own && own->is_settled() && (!rooms.are_open() || rooms.are_few()))
-    few_verdicts.validate(live, own->store(), default_rule);
+    few_verdicts.validate(live, own->store(), world, default_rule);
   if (rooms.are_open() || all_have_begun) flush_pending();  // held pairs touch by boxes that the World may not have
   world.validate();
   std::unordered_set<const btBroadphaseProxy*> proxies;

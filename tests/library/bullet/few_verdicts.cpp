@@ -20,7 +20,7 @@ namespace {
 
 /// A few change in each frame: they tremble, go far, come, go, become invalid, a user removes a pair or adds one, or
 /// the World has to know.
-void live_on(Pile& pile, Random& random, int frame) {
+void live_on(Pile& pile, Random& random, int frame, btScalar reach = 2) {
   for (int times = random.below(4); times > 0 && !pile.proxies.empty(); --times) {
     const auto one = std::size_t(random.below(int(pile.proxies.size())));
     pile.set(one, pile.places[one] += random.vector(btScalar(-0.02), btScalar(0.02)));
@@ -30,20 +30,20 @@ void live_on(Pile& pile, Random& random, int frame) {
   btOverlappingPairCache& cache = *pile.broadphase.getOverlappingPairCache();
   switch (random.below(10)) {
     case 0:
-      return pile.add(random.vector(-2, 2));
+      return pile.add(random.vector(-reach, reach));
     case 1:
       return pile.remove(one);
     case 2:
-      return pile.set(one, pile.places[one] = random.vector(-2, 2));
+      return pile.set(one, pile.places[one] = random.vector(-reach, reach));
     case 3:
       return pile.broadphase.setAabb(pile.proxies[one], btVector3(1, 1, 1), btVector3(-1, 1, 1), nullptr);
     case 4:
       pile.remove(one);
-      return pile.add(random.vector(-2, 2));
+      return pile.add(random.vector(-reach, reach));
     case 5:
       while (!pile.proxies.empty() && random.below(6) != 0)
         pile.remove(std::size_t(random.below(int(pile.proxies.size()))));
-      while (random.below(6) != 0) pile.add(random.vector(-2, 2));
+      while (random.below(6) != 0) pile.add(random.vector(-reach, reach));
       return;
     case 6: {
       const auto other = std::size_t(random.below(int(pile.proxies.size())));
@@ -97,6 +97,23 @@ TEST(BulletFewVerdicts, PairsAreThoseThatTouch) {
         ASSERT_NO_THROW(pile.broadphase.validate()) << frame;
       }
     }
+}
+
+/// Of more than very few, where few change in a batch, up to as many as verdicts are for, and beyond.
+TEST(BulletFewVerdicts, PairsOfMoreAreThoseThatTouch) {
+  for (const int size : {40, 64, 97, 127, 160, 250, 318}) {
+    Pile pile({}, 2, std::uint64_t(size));
+    Random random{std::uint64_t(size)};
+    const btScalar reach = size < 128 ? 3 : 5;
+    while (pile.proxies.size() < std::size_t(size)) pile.add(random.vector(-reach, reach));
+    for (int frame = 0; frame < 700; ++frame) {
+      live_on(pile, random, frame, reach);
+      if (random.below(5) == 0) continue;
+      pile.calculate();
+      ASSERT_EQ(pairs_of(pile.broadphase), expected(pile, 0)) << size << ", frame " << frame;
+      ASSERT_NO_THROW(pile.broadphase.validate()) << size << ", frame " << frame;
+    }
+  }
 }
 
 /// A box leaves its room, and rooms are closed before the batch, at any time after boxes have become calm.
@@ -193,6 +210,24 @@ TEST(BulletFewVerdicts, GhostsHearOfEachPairOnce) {
     EXPECT_EQ(rig.pair_count(), frame % 4 < 2 ? 1 : 0) << frame;
   }
   EXPECT_EQ(rig.log.adds(), 5);
+}
+
+/// As a ghost asks, the World hears of a pair that a batch has begun, and has to hear of its end.
+TEST(BulletFewVerdicts, PairsThatAGhostToldTheWorldOfEnd) {
+  GhostRig rig;
+  btBroadphaseProxy* const at_ghost = rig.create_for(&rig.ghost, cube(50, 0, 0));
+  btBroadphaseProxy* const a = rig.create(cube(0, 0, 0));
+  btBroadphaseProxy* b = rig.create(cube(btScalar(0.5), 0, 0));
+  for (int frame = 0; frame < 8; ++frame) {
+    rig.calculate();
+    EXPECT_TRUE(rig.holds(a, b)) << frame;
+    rig.move(at_ghost, cube(60, 0, btScalar(frame)));
+    ASSERT_NO_THROW(dynamic_cast<bullet::Broadphase&>(*rig.broadphase).validate()) << frame;
+    rig.destroy(b);
+    EXPECT_EQ(rig.pair_count(), 0) << frame;
+    b = rig.create(cube(btScalar(0.5), 0, 0));
+    ASSERT_NO_THROW(dynamic_cast<bullet::Broadphase&>(*rig.broadphase).validate()) << frame;
+  }
 }
 
 /// Users remove and add pairs, and a ghost that moves asks for its own before the next batch decides about those.
