@@ -33,10 +33,9 @@ class BroadphaseKeeper final : public Keeper {
     for (std::uint32_t i = 0; i < boxes.size(); ++i) add(i, boxes[i]);
   }
   void remove(std::uint32_t i) override { broadphase->destroyProxy(proxies_[i], nullptr); }
-  void add(std::uint32_t i, const Aabb& box) override {
-    proxies_[i] = broadphase->createProxy(vector(box.min), vector(box.max), 0,
-                                          reinterpret_cast<void*>(std::uintptr_t{i}), 1, 1, nullptr);
-  }
+  void add(std::uint32_t i, const Aabb& box) override { proxies_[i] = create(i, box); }
+  void come(const Aabb& box) override { newcomer_ = create(static_cast<std::uint32_t>(proxies_.size()), box); }
+  void leave() override { broadphase->destroyProxy(newcomer_, nullptr); }
   void move(Span<const std::uint32_t> which, Span<const Aabb> boxes) override {
     for (const std::uint32_t i : which)
       broadphase->setAabb(proxies_[i], vector(boxes[i].min), vector(boxes[i].max), nullptr);
@@ -59,7 +58,13 @@ class BroadphaseKeeper final : public Keeper {
   std::unique_ptr<btBroadphaseInterface> broadphase;
 
  private:
+  btBroadphaseProxy* create(std::uint32_t i, const Aabb& box) {
+    return broadphase->createProxy(vector(box.min), vector(box.max), 0,
+                                   reinterpret_cast<void*>(std::uintptr_t{i}), 1, 1, nullptr);
+  }
+
   std::vector<btBroadphaseProxy*> proxies_;
+  btBroadphaseProxy* newcomer_ = nullptr;
 };
 
 std::unique_ptr<Keeper> make_adapter_keeper() {
@@ -97,12 +102,15 @@ std::uint64_t ask_ray(Keeper& keeper, const CliffScene& scene) {
     bool process(const btBroadphaseProxy*) override { return ++found > 0; }
     std::uint64_t found = 0;
   };
-  const btVector3 from = vector(scene.at(0, ++keeper.turn * 7 % scene.size()).min), way(8, 4, 2);
+  const std::size_t turn = ++keeper.turn;
+  const btVector3 from = vector(scene.at(0, turn * 7 % scene.size()).min);
+  const auto step = [&](std::size_t prime) { return btScalar(turn * prime % 17) - btScalar(8.5); };  // of any sign
+  const btVector3 way(step(3), step(5), step(7));
   Count count;
   const btVector3 direction = way.normalized();
   for (int d = 0; d < 3; ++d) {
     count.m_rayDirectionInverse[d] = btScalar(1) / direction[d];
-    count.m_signs[d] = 0;
+    count.m_signs[d] = direction[d] < 0;
   }
   count.m_lambda_max = way.length();
   static_cast<BroadphaseKeeper&>(keeper).broadphase->rayTest(from, from + way, count);
@@ -122,7 +130,7 @@ std::vector<CliffCall> bullet_calls() {
   };
   add("create and remove", "all proxies, with an update between", create_all, false);
   add("aabbTest", "one box", ask_box);
-  add("rayTest", "one ray of nine sides", ask_ray);
+  add("rayTest", "one ray of up to fifteen sides", ask_ray);
   return calls;
 }
 

@@ -16,6 +16,8 @@ class DetectorKeeper final : public Keeper {
   void fill(Span<const Aabb> boxes) override { boxes_.assign(boxes.begin(), boxes.end()); }
   void remove(std::uint32_t i) override { boxes_[i] = Aabb{}; }
   void add(std::uint32_t i, const Aabb& box) override { boxes_[i] = box; }
+  void come(const Aabb& box) override { boxes_.push_back(box); }
+  void leave() override { boxes_.pop_back(); }
   void move(Span<const std::uint32_t>, Span<const Aabb> boxes) override { fill(boxes); }
   void update() override { detector.find_pairs(boxes_, found); }
   PairSummary pairs(Span<const Aabb>) override { return {}; }

@@ -60,6 +60,14 @@ class ManagerKeeper final : public Keeper {
     objects[i].set(box);
     manager->registerObject(&objects[i]);
   }
+  void come(const Aabb& box) override {
+    if (newcomer_ == nullptr)
+      newcomer_ = std::make_unique<FclObject<double>>(std::make_shared<::fcl::Sphere<double>>(1.0),
+                                                      static_cast<std::uint32_t>(objects.size()), box);
+    newcomer_->set(box);
+    manager->registerObject(newcomer_.get());
+  }
+  void leave() override { manager->unregisterObject(newcomer_.get()); }
   void move(Span<const std::uint32_t> which, Span<const Aabb> boxes) override {
     for (const std::uint32_t i : which) objects[i].set(boxes[i]);
     if (which.size() == boxes.size()) {
@@ -97,6 +105,7 @@ class ManagerKeeper final : public Keeper {
  private:
   Make make_;
   std::vector<Object*> moved_;
+  std::unique_ptr<FclObject<double>> newcomer_;
   std::unique_ptr<ManagerKeeper> quarter_;
 };
 

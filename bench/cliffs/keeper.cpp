@@ -63,6 +63,14 @@ std::uint64_t out_and_in(Keeper& keeper, const CliffScene& scene) {
   return 0;
 }
 
+std::uint64_t comes_and_goes(Keeper& keeper, const CliffScene& scene) {
+  keeper.come(scene.at(1, ++keeper.turn * 7 % scene.size()));
+  keeper.update();
+  keeper.leave();
+  keeper.update();
+  return 0;
+}
+
 }  // namespace
 
 CliffScene::CliffScene(std::size_t n) : all_(n) {
@@ -137,6 +145,7 @@ std::vector<CliffCall> frame_calls(std::string owner, std::unique_ptr<Keeper> (*
   add("none moves", "all boxes are set to where they are", none_moves);
   add("all jump", "all boxes change places", all_jump);
   add("out and in", "one is removed, and added again, each with an update", out_and_in);
+  add("comes and goes", "one more is added, and removed again, each with an update", comes_and_goes);
   return calls;
 }
 

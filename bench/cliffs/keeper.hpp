@@ -50,6 +50,9 @@ class Keeper {
   virtual void fill(Span<const Aabb> boxes) = 0;
   virtual void remove(std::uint32_t i) = 0;
   virtual void add(std::uint32_t i, const Aabb& box) = 0;
+  /// One more than there are, until it leaves.
+  virtual void come(const Aabb& box) = 0;
+  virtual void leave() = 0;
   /// `boxes` has all boxes of a frame, `which` those that are set.
   virtual void move(Span<const std::uint32_t> which, Span<const Aabb> boxes) = 0;
   virtual void update() = 0;

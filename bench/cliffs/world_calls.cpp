@@ -21,6 +21,8 @@ class WorldKeeper final : public Keeper {
   }
   void remove(std::uint32_t i) override { world.destroy(ids_[i]); }
   void add(std::uint32_t i, const Aabb& box) override { ids_[i] = world.create(box, {}, i); }
+  void come(const Aabb& box) override { newcomer_ = world.create(box, {}, ids_.size()); }
+  void leave() override { world.destroy(newcomer_); }
   void move(Span<const std::uint32_t> which, Span<const Aabb> boxes) override {
     if (which.size() == ids_.size()) {
       world.move(ids_, boxes);
@@ -43,6 +45,7 @@ class WorldKeeper final : public Keeper {
 
  private:
   std::vector<ProxyId> ids_;
+  ProxyId newcomer_;
   std::vector<std::uint64_t> users_;
 };
 

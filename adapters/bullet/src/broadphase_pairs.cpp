@@ -116,8 +116,8 @@ bool Broadphase::Impl::is_done_by_few(btDispatcher* dispatcher) {
   stats.moved = moved;
   stats.begun = stats.ended = 0;
   stats.search = {};
-  if (answer == FewVerdicts::Answer::nothing) {
-    is_quiet = moved == 0;
+  if (answer != FewVerdicts::Answer::pairs) {
+    is_quiet = answer == FewVerdicts::Answer::nothing;
     return true;
   }
   or_fatal([&] {

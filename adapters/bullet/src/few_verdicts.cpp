@@ -3,7 +3,8 @@
 
 #include <new>
 #include <stdexcept>
-#include <utility>
+#include <tuple>
+#include <type_traits>
 
 #include <boxstream/detail/float_environment.hpp>
 
@@ -14,8 +15,10 @@ inline namespace BOXSTREAM_BULLET_PRECISION {
 
 void FewVerdicts::note_alone(const Proxy& proxy) {
   if (!are_known_) return;
-  with_table([&](auto& table) { table.release(proxy.position); });
-  moved_.put(proxy.position);
+  with_table([&](auto& table) {
+    table.release(proxy.position);
+    table.moved.put(proxy.position);
+  });
 }
 
 void FewVerdicts::note_destroyed(const Proxy& proxy, std::size_t size) {
@@ -23,12 +26,9 @@ void FewVerdicts::note_destroyed(const Proxy& proxy, std::size_t size) {
   const std::uint32_t gone = proxy.position, last = std::uint32_t(size - 1);
   with_table([&](auto& table) {
     table.release(gone);
+    table.moved.take(gone);
     if (gone != last) table.replace(gone, last);
   });
-  moved_.take(gone);
-  if (gone == last || !moved_.has(last)) return;
-  moved_.take(last);
-  moved_.put(gone);
 }
 
 void FewVerdicts::note_told(std::size_t size) noexcept {
@@ -47,18 +47,15 @@ bool FewVerdicts::is_worth_learning(std::size_t size, std::size_t moved) {
 
 /// False if there is no memory.
 bool FewVerdicts::make_room_for(std::size_t size) noexcept {
-  const auto make = [this](auto table) {
-    using Table = typename decltype(table)::element_type;
-    if (std::holds_alternative<std::unique_ptr<Table>>(table_)) return true;
-    table.reset(new (std::nothrow) Table);
-    if (!table) return false;
-    table_ = std::move(table);
-    return true;
+  const auto make = [](auto& table) {
+    using Table = typename std::decay_t<decltype(table)>::element_type;
+    if (!table) table.reset(new (std::nothrow) Table);
+    return table != nullptr;
   };
-  if (size > Some::most) return make(std::unique_ptr<Many>());
-  if (size > VeryFew::most) return make(std::unique_ptr<Some>());
-  if (!are_very_few()) table_.emplace<VeryFew>();
-  return true;
+  are_very_few_ = size <= VeryFew::most;
+  if (are_very_few_ || size > Some::most) some_.reset();
+  if (size <= Some::most) many_.reset();
+  return are_very_few_ || (size <= Some::most ? make(some_) : make(many_));
 }
 
 void FewVerdicts::learn(const Proxies& live, PairStore& pairs, std::size_t moved) {
@@ -69,8 +66,8 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs, std::size_t moved
   }
   if (!is_worth_learning(live.size(), moved) || !make_room_for(live.size())) return;
   are_known_ = true;
-  moved_ = {};
   with_table([&](auto& table) {
+    table.moved = {};
     for (const Proxy* proxy : live) {
       table.add(proxy->position);
       table.set_box(proxy->position, box_in_world(*proxy));
@@ -81,11 +78,12 @@ void FewVerdicts::learn(const Proxies& live, PairStore& pairs, std::size_t moved
 }
 
 template <class Table>
-FewVerdicts::Answer FewVerdicts::compare_in(Table& table, const Proxies& live, bool by_masks) {
+FewVerdicts::Answer FewVerdicts::compare(Table& table, const Proxies& live, bool by_masks) {
   const auto size = std::uint32_t(live.size());
-  Answer answer = Answer::nothing;
+  if (Table::most > VeryFew::most && table.moved.has_more_than(most_moved(size))) return Answer::unknown;
+  Answer answer = Answer::still;
   table.forget_changes();
-  moved_.for_each([&](std::uint32_t mover) {
+  table.moved.for_each([&](std::uint32_t mover) {
     if (answer == Answer::unknown) return;
     const auto box = table.box(mover);
     if (!box.is_valid()) {
@@ -112,20 +110,22 @@ FewVerdicts::Answer FewVerdicts::compare_in(Table& table, const Proxies& live, b
   return answer;
 }
 
-FewVerdicts::Answer FewVerdicts::compare(const Proxies& live, bool by_masks, std::vector<btBroadphasePair>& begun) {
-  if (moved_.is_empty()) return Answer::nothing;
-  if (!are_very_few() && moved_.has_more_than(most_moved(live.size()))) return Answer::unknown;
-  return with_table([&](auto& table) {
-    const Answer answer = compare_in(table, live, by_masks);
-    if (answer != Answer::pairs) return answer;
-    begun.clear();
-    has_any_ended_ = table.apply([&](std::uint32_t a, std::uint32_t b) { begun.emplace_back(*live[a], *live[b]); });
-    return answer;
-  });
+template <class Table>
+void FewVerdicts::apply(Table& table, const Proxies& live, std::vector<btBroadphasePair>& begun) {
+  begun.clear();
+  has_any_ended_ = table.apply([&](std::uint32_t a, std::uint32_t b) { begun.emplace_back(*live[a], *live[b]); });
 }
 
+#define INSTANTIATE(Table)                                                                         \
+  template FewVerdicts::Answer FewVerdicts::compare(Table&, const Proxies&, bool);                 \
+  template void FewVerdicts::apply(Table&, const Proxies&, std::vector<btBroadphasePair>&)
+INSTANTIATE(FewVerdicts::VeryFew);
+INSTANTIATE(FewVerdicts::Some);
+INSTANTIATE(FewVerdicts::Many);
+#undef INSTANTIATE
+
 void FewVerdicts::shrink_to_fit() noexcept {
-  if (!are_known_ && !are_very_few()) table_.emplace<VeryFew>();
+  if (!are_known_) make_room_for(0);
 }
 
 void FewVerdicts::validate(const Proxies& live, PairStore& pairs, const BasicWorld<btScalar>& world,
@@ -140,12 +140,13 @@ void FewVerdicts::validate(const Proxies& live, PairStore& pairs, const BasicWor
   for (const Proxy* a : live)
     for (const Proxy* b : live) {
       if (a == b) continue;
-      const auto [is_held, is_in_world] = with_table([&](const auto& table) {
-        return std::pair(table.held(a->position).has(b->position), table.in_world(a->position).has(b->position));
+      const auto [is_held, is_in_world, has_moved] = with_table([&](const auto& table) {
+        return std::tuple(table.held(a->position).has(b->position), table.in_world(a->position).has(b->position),
+                          table.moved.has(a->position) || table.moved.has(b->position));
       });
       check(is_in_world == (a->id && b->id && world.pair_place(a->id, b->id).has_value()),
             "verdicts: a pair of the World");
-      const bool has_moved = moved_.has(a->position) || moved_.has(b->position);
+      
       const bool touch =
           is_valid(box_in_world(*a)) && is_valid(box_in_world(*b)) && overlaps(box_in_world(*a), box_in_world(*b));
       if (!is_held) {

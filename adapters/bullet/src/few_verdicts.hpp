@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include <boxstream/bullet/precision.hpp>
@@ -32,13 +31,11 @@ class FewVerdicts {
 
   template <class With>
   decltype(auto) with_table(With&& with) {
-    if (auto* const some = std::get_if<std::unique_ptr<Some>>(&table_)) return with(**some);
-    if (auto* const many = std::get_if<std::unique_ptr<Many>>(&table_)) return with(**many);
-    return with(*std::get_if<VeryFew>(&table_));
+    return are_very_few_ ? with(very_few_) : some_ ? with(*some_) : with(*many_);
   }
   template <class With>
   decltype(auto) with_table(With&& with) const {
-    return const_cast<FewVerdicts&>(*this).with_table([&](const auto& table) -> decltype(auto) { return with(table); });
+    return are_very_few_ ? with(very_few_) : some_ ? with(*some_) : with(*many_);
   }
 
  public:
@@ -54,8 +51,7 @@ class FewVerdicts {
   /// `box` is that of the World.
   void note_move(const Proxy& proxy, const Box& box) {
     if (!are_known_) return;
-    with_table([&](auto& table) { table.set_box(proxy.position, box); });
-    moved_.put(proxy.position);
+    with_table([&](auto& table) { table.move(proxy.position, box); });
   }
   /// The last one of all, which is held with nothing.
   void note_created(const Proxy& proxy, const Box& box) {
@@ -86,18 +82,17 @@ class FewVerdicts {
   /// After a search that has seen all changes: `pairs` are those that are held, and `moved` boxes were searched for.
   void learn(const Proxies& live, PairStore& pairs, std::size_t moved);
 
-  enum class Answer { nothing, pairs, unknown };
+  /// `still`: nothing begins or ends, though boxes have moved.
+  enum class Answer { nothing, still, pairs, unknown };
 
   /// What begins and ends by what has moved since verdicts were learned, or this was last asked and had an answer.
   /// `by_masks`: group and mask refuse pairs, and nothing else does. Calls `visit(proxy)` for what has moved if there
   /// is an answer. If that is `pairs`, `begun` are those that begin.
   template <class Visit>
   Answer ask(const Proxies& live, bool by_masks, std::vector<btBroadphasePair>& begun, Visit&& visit) {
-    const Answer answer = are_known_ ? compare(live, by_masks, begun) : Answer::unknown;
-    if (answer == Answer::unknown || moved_.is_empty()) return answer;
-    moved_.for_each([&](std::uint32_t position) { visit(*live[position]); });
-    moved_ = {};
-    if (answer == Answer::nothing && live.size() >= least_in_rooms && ++batches_held_ == patience_) let_rooms_try();
+    if (!are_known_) return Answer::unknown;
+    const Answer answer = with_table([&](auto& table) { return ask_of(table, live, by_masks, begun, visit); });
+    if (answer == Answer::still && live.size() >= least_in_rooms && ++batches_held_ == patience_) let_rooms_try();
     return answer;
   }
   /// By the last answer, which was `pairs`; `pair` was held before.
@@ -117,14 +112,24 @@ class FewVerdicts {
   std::size_t room() const {
     return with_table([](const auto& table) { return std::size_t{table.most}; });
   }
-  bool are_very_few() const { return std::holds_alternative<VeryFew>(table_); }
-
   static std::uint32_t position_of(const btBroadphaseProxy* proxy) {
     return static_cast<const Proxy*>(proxy)->position;
   }
-  Answer compare(const Proxies& live, bool by_masks, std::vector<btBroadphasePair>& begun);
+  template <class Table, class Visit>
+  Answer ask_of(Table& table, const Proxies& live, bool by_masks, std::vector<btBroadphasePair>& begun,
+                const Visit& visit) {
+    if (table.moved.is_empty()) return Answer::nothing;
+    const Answer answer = compare(table, live, by_masks);
+    if (answer == Answer::unknown) return answer;
+    table.moved.for_each([&](std::uint32_t position) { visit(*live[position]); });
+    table.moved = {};
+    if (answer == Answer::pairs) apply(table, live, begun);
+    return answer;
+  }
   template <class Table>
-  Answer compare_in(Table& table, const Proxies& live, bool by_masks);
+  Answer compare(Table& table, const Proxies& live, bool by_masks);
+  template <class Table>
+  void apply(Table& table, const Proxies& live, std::vector<btBroadphasePair>& begun);
   bool is_worth_learning(std::size_t size, std::size_t moved);
   bool make_room_for(std::size_t size) noexcept;
   void note_many() noexcept {
@@ -147,8 +152,10 @@ class FewVerdicts {
   static constexpr unsigned least_patience = 16, most_patience = 1024;
 
   bool are_known_ = true;  // at first there are none
-  PositionSet<most> moved_;
-  std::variant<VeryFew, std::unique_ptr<Some>, std::unique_ptr<Many>> table_;
+  bool are_very_few_ = true;
+  VeryFew very_few_;
+  std::unique_ptr<Some> some_;  // unless they are very few, this or the next
+  std::unique_ptr<Many> many_;
   bool has_any_ended_ = false;
   unsigned batches_held_ = 0, patience_ = least_patience;  // in which all were still, since rooms were last let try
   unsigned searches_left_ = 0;                             // before this may take part

@@ -69,6 +69,10 @@ class VerdictTable {
 
   /// Holds nothing with others.
   void add(std::uint32_t position) { held_[position] = in_world_[position] = {}; }
+  void move(std::uint32_t position, const Box& box) {
+    set_box(position, box);
+    moved.put(position);
+  }
   void set_box(std::uint32_t position, const Box& box) {
     for (int d = 0; d < 3; ++d) {
       lo_[d][position] = key(box.min[d]);
@@ -79,6 +83,9 @@ class VerdictTable {
     return {{lo_[0][position], lo_[1][position], lo_[2][position]},
             {hi_[0][position], hi_[1][position], hi_[2][position]}};
   }
+  /// Those that were moved since they were looked at.
+  Set moved;
+
   /// Those of the first `size` that this box touches, which is valid or not. Itself is among them, if it is one.
   Set touching(const KeyBox& box, std::uint32_t size) const;
 
@@ -102,6 +109,8 @@ class VerdictTable {
   }
   /// One that has none is gone, and the last one takes its position.
   void replace(std::uint32_t gone, std::uint32_t last) {
+    if (moved.has(last)) moved.put(gone);
+    moved.take(last);
     for (int d = 0; d < 3; ++d) {
       lo_[d][gone] = lo_[d][last];
       hi_[d][gone] = hi_[d][last];

@@ -13,6 +13,8 @@ struct Idle final : Keeper {
   void fill(Span<const Aabb>) override {}
   void remove(std::uint32_t) override {}
   void add(std::uint32_t, const Aabb&) override {}
+  void come(const Aabb&) override {}
+  void leave() override {}
   void move(Span<const std::uint32_t>, Span<const Aabb>) override {}
   void update() override {}
   PairSummary pairs(Span<const Aabb>) override { return {}; }
