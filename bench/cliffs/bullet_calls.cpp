@@ -59,8 +59,8 @@ class BroadphaseKeeper final : public Keeper {
 
  private:
   btBroadphaseProxy* create(std::uint32_t i, const Aabb& box) {
-    return broadphase->createProxy(vector(box.min), vector(box.max), 0,
-                                   reinterpret_cast<void*>(std::uintptr_t{i}), 1, 1, nullptr);
+    return broadphase->createProxy(vector(box.min), vector(box.max), 0, reinterpret_cast<void*>(std::uintptr_t{i}), 1,
+                                   1, nullptr);
   }
 
   std::vector<btBroadphaseProxy*> proxies_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/ray.hpp>
@@ -24,7 +23,7 @@ struct RaySlabs {
   S reach_hi[3];
   bool parallel[3];  // infinite inverse, or one of zero: the axis only says inside or outside
   bool is_long[3];   // distances that overflow may be within the length
-  bool is_plain;     // none is, and all are numbers
+  bool is_plain;     // none is, all are numbers, and what is swept is a box
   bool hits_nothing;
 
   explicit RaySlabs(const BasicRay<S>& ray) {

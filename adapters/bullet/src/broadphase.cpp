@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include <boxstream/detail/float_environment.hpp>
@@ -20,7 +21,7 @@ namespace {
 
 Options checked(Options options) {
   const boxstream::detail::DefaultFloatEnvironment environment;
-  if (!(options.margin > 0)) options.margin = 0;
+  if (!(options.margin >= std::numeric_limits<btScalar>::min())) options.margin = 0;
   return options;
 }
 
@@ -121,7 +122,8 @@ void Broadphase::Impl::end_all_of(Proxy& proxy, btDispatcher* dispatcher) {
 bool Broadphase::Impl::may_end_by_few(btDispatcher* dispatcher) {
   if (!own || own->is_in_callback() || world_is_busy) return false;
   own->flush_notifications(dispatcher);
-  return few_verdicts.are_known() && own->holds_worlds_pairs();
+  constexpr std::uint32_t most_pairs = 2048;  // links of the cache find the pairs of one among more
+  return few_verdicts.are_known() && own->holds_worlds_pairs() && own->store().size() <= most_pairs;
 }
 
 /// The pairs that verdicts know of a proxy that is about to be destroyed.
@@ -202,7 +204,7 @@ void Broadphase::Impl::shrink_to_fit() {
     live.shrink_to_fit();
     pending.shrink_to_fit(live.capacity());
   });
-  few_verdicts.shrink_to_fit();
+  few_verdicts.give_back();
   rooms.give_back();
   surroundings.forget();
   spare_lists.clear();

@@ -131,6 +131,7 @@ struct Broadphase::Impl {
   bool is_still_quiet();
   bool is_done_by_few(btDispatcher* dispatcher);
   void catch_up();
+  void find_untold();
   void end_all_of(Proxy& proxy, btDispatcher* dispatcher);
   bool may_end_by_few(btDispatcher* dispatcher);
   void release_in_world(const Proxy& proxy);

@@ -126,6 +126,7 @@ bool Broadphase::Impl::is_done_by_few(btDispatcher* dispatcher) {
     own->begin(early);
   });
   world_lags = true;
+  checked_since_change = 0;
   stats.begun = early.size();
   stats.ended = stats.pairs + stats.begun - own->store().size();
   stats.pairs = own->store().size();
@@ -149,8 +150,24 @@ void Broadphase::Impl::catch_up() {
     own->user_changes().flush(decide_anew);
   }
   own->settle();
+  find_untold();
+  world.update_told(begun, ended, [](ProxyId, ProxyId) { return true; });
+  for (const auto* told : {&begun, &ended})
+    for (const ProxyPair& pair : *told) decide_anew(pair.a, pair.b);
+  few_verdicts.note_told(live.size());
+  world_lags = false;
+}
+
+/// The pairs that are held and not in the World, to `begun`, and the others, to `ended`.
+void Broadphase::Impl::find_untold() {
   begun.clear();
   ended.clear();
+  if (few_verdicts.are_known()) {
+    const auto to = [](std::vector<ProxyPair>& told) {
+      return [&told](const Proxy& a, const Proxy& b) { told.push_back({a.id, b.id}); };
+    };
+    return few_verdicts.for_each_untold(live, to(begun), to(ended));
+  }
   PairStore& pairs = own->store();
   for (std::uint32_t i = 0; i < pairs.size(); ++i)
     if (!place_in(world, pairs[i]))
@@ -161,11 +178,6 @@ void Broadphase::Impl::catch_up() {
     if (pairs.find(proxy_of(pair.a), proxy_of(pair.b)) == PairStore::npos) ended.push_back(pair);
     return true;
   });
-  world.update_told(begun, ended, [](ProxyId, ProxyId) { return true; });
-  for (const auto* told : {&begun, &ended})
-    for (const ProxyPair& pair : *told) decide_anew(pair.a, pair.b);
-  few_verdicts.note_told(live.size());
-  world_lags = false;
 }
 
 void Broadphase::Impl::update_filter(Proxy& proxy, Filter filter) {
@@ -242,8 +254,9 @@ void Broadphase::Impl::find_events(btDispatcher* dispatcher) {
     all_have_begun = are_told || !has_pending.load(std::memory_order_relaxed);
     answered = 0;
     follow_rooms();
-    if (are_searched && pending.empty())
-      few_verdicts.learn(live, own->store(), stats.moved);
+    if (are_searched && pending.empty() && options.method != Method::hybrid)
+      few_verdicts.learn(live, own->store(), stats.moved,
+                         default_rule && stats.invalid == 0 && !surroundings.are_kept());
     else
       few_verdicts.forget();
   }

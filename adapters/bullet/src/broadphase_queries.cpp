@@ -37,8 +37,10 @@ void copy(const btVector3& from, btScalar (&to)[3]) {
 }
 
 /// False for a ray that only the World can follow.
-bool look_along(const PlainRay& ray, FoundFew& found) {
+bool look_along(const btVector3& from, const btVector3& inverse, btScalar length, const btVector3& extent_min,
+                const btVector3& extent_max, FoundFew& found) {
   const boxstream::detail::LazyFloatEnvironment environment;
+  const PlainRay ray(from, inverse, length, extent_min, extent_max);
   if (!ray.is_plain()) return false;
   found.look([&](const Proxy& proxy) {
     if (proxy.margin == 0)
@@ -69,8 +71,8 @@ void Broadphase::rayTest(const btVector3& rayFrom, const btVector3&, btBroadphas
   const btScalar length = at_least_zero(rayCallback.m_lambda_max);
   if (FoundFew::can_look(impl_->live)) {
     FoundFew found(impl_->live, impl_->created);
-    const PlainRay ray(rayFrom, rayCallback.m_rayDirectionInverse, length, aabbMin, aabbMax);
-    if (look_along(ray, found)) return found.report(rayCallback);
+    if (look_along(rayFrom, rayCallback.m_rayDirectionInverse, length, aabbMin, aabbMax, found))
+      return found.report(rayCallback);
   }
   BasicRay<btScalar> ray;
   copy(rayFrom, ray.origin);

@@ -35,36 +35,44 @@ void FewVerdicts::note_told(std::size_t size) noexcept {
   if (are_known_) with_table([&](auto& table) { table.note_told(std::uint32_t(size)); });
 }
 
-bool FewVerdicts::is_worth_learning(std::size_t size, std::size_t moved) {
+/// A table that was outgrown is taken again once there is much room in it.
+std::uint32_t FewVerdicts::room_for(std::size_t size) const {
+  for (const std::uint32_t room : {VeryFew::most, Some::most})
+    if (size <= (room == outgrown_ ? room - room / 4 : room)) return room;
+  return Many::most;
+}
+
+bool FewVerdicts::is_worth_learning(std::size_t size, std::size_t moved, bool may_answer) {
   if (searches_left_ != 0) {
     --searches_left_;
     return false;
   }
-  if (size <= VeryFew::most) return true;
+  if (room_for(size) == VeryFew::most) return true;
   calm_ = moved <= most_moved(size) ? calm_ + 1 : 0;
-  return calm_ >= least_calm;
+  return calm_ >= least_calm && may_answer;
 }
 
 /// False if there is no memory.
-bool FewVerdicts::make_room_for(std::size_t size) noexcept {
+bool FewVerdicts::make_room(std::uint32_t room) noexcept {
+  if (room != Some::most) some_.reset();
+  if (room != Many::most) many_.reset();
   const auto make = [](auto& table) {
     using Table = typename std::decay_t<decltype(table)>::element_type;
     if (!table) table.reset(new (std::nothrow) Table);
     return table != nullptr;
   };
-  are_very_few_ = size <= VeryFew::most;
-  if (are_very_few_ || size > Some::most) some_.reset();
-  if (size <= Some::most) many_.reset();
-  return are_very_few_ || (size <= Some::most ? make(some_) : make(many_));
+  const bool is_made = room == VeryFew::most || (room == Some::most ? make(some_) : make(many_));
+  room_ = is_made ? room : VeryFew::most;
+  return is_made;
 }
 
-void FewVerdicts::learn(const Proxies& live, PairStore& pairs, std::size_t moved) {
+void FewVerdicts::learn(const Proxies& live, PairStore& pairs, std::size_t moved, bool may_answer) {
   are_known_ = false;
   if (live.size() > most) {
-    shrink_to_fit();
+    give_back();
     return note_many();
   }
-  if (!is_worth_learning(live.size(), moved) || !make_room_for(live.size())) return;
+  if (!is_worth_learning(live.size(), moved, may_answer) || !make_room(room_for(live.size()))) return;
   are_known_ = true;
   with_table([&](auto& table) {
     table.moved = {};
@@ -116,16 +124,17 @@ void FewVerdicts::apply(Table& table, const Proxies& live, std::vector<btBroadph
   has_any_ended_ = table.apply([&](std::uint32_t a, std::uint32_t b) { begun.emplace_back(*live[a], *live[b]); });
 }
 
-#define INSTANTIATE(Table)                                                                         \
-  template FewVerdicts::Answer FewVerdicts::compare(Table&, const Proxies&, bool);                 \
+#define INSTANTIATE(Table)                                                         \
+  template FewVerdicts::Answer FewVerdicts::compare(Table&, const Proxies&, bool); \
   template void FewVerdicts::apply(Table&, const Proxies&, std::vector<btBroadphasePair>&)
 INSTANTIATE(FewVerdicts::VeryFew);
 INSTANTIATE(FewVerdicts::Some);
 INSTANTIATE(FewVerdicts::Many);
 #undef INSTANTIATE
 
-void FewVerdicts::shrink_to_fit() noexcept {
-  if (!are_known_) make_room_for(0);
+void FewVerdicts::give_back() noexcept {
+  forget();
+  make_room(VeryFew::most);
 }
 
 void FewVerdicts::validate(const Proxies& live, PairStore& pairs, const BasicWorld<btScalar>& world,
@@ -134,7 +143,7 @@ void FewVerdicts::validate(const Proxies& live, PairStore& pairs, const BasicWor
     if (!holds) throw std::logic_error(what);
   };
   if (!are_known_) return;
-  check(live.size() <= room(), "verdicts: of many proxies");
+  check(live.size() <= room_, "verdicts: of many proxies");
   const boxstream::detail::DefaultFloatEnvironment environment;
   std::size_t bits = 0;
   for (const Proxy* a : live)
@@ -146,7 +155,7 @@ void FewVerdicts::validate(const Proxies& live, PairStore& pairs, const BasicWor
       });
       check(is_in_world == (a->id && b->id && world.pair_place(a->id, b->id).has_value()),
             "verdicts: a pair of the World");
-      
+
       const bool touch =
           is_valid(box_in_world(*a)) && is_valid(box_in_world(*b)) && overlaps(box_in_world(*a), box_in_world(*b));
       if (!is_held) {

@@ -31,11 +31,11 @@ class FewVerdicts {
 
   template <class With>
   decltype(auto) with_table(With&& with) {
-    return are_very_few_ ? with(very_few_) : some_ ? with(*some_) : with(*many_);
+    return room_ == VeryFew::most ? with(very_few_) : room_ == Some::most ? with(*some_) : with(*many_);
   }
   template <class With>
   decltype(auto) with_table(With&& with) const {
-    return are_very_few_ ? with(very_few_) : some_ ? with(*some_) : with(*many_);
+    return room_ == VeryFew::most ? with(very_few_) : room_ == Some::most ? with(*some_) : with(*many_);
   }
 
  public:
@@ -55,7 +55,7 @@ class FewVerdicts {
   }
   /// The last one of all, which is held with nothing.
   void note_created(const Proxy& proxy, const Box& box) {
-    if (proxy.position >= most || (are_known_ && proxy.position >= room())) return note_many();
+    if (proxy.position >= most || (are_known_ && proxy.position >= room_)) return note_many();
     if (!are_known_) return;
     with_table([&](auto& table) { table.add(proxy.position); });
     note_move(proxy, box);
@@ -66,6 +66,16 @@ class FewVerdicts {
   void note_destroyed(const Proxy& proxy, std::size_t size);
   /// The World has been told of all pairs.
   void note_told(std::size_t size) noexcept;
+  /// Calls `begun(a, b)` for each pair that is held and not in the World, and `ended(a, b)` the other way round.
+  template <class Begun, class Ended>
+  void for_each_untold(const Proxies& live, Begun&& begun, Ended&& ended) const {
+    with_table([&](const auto& table) {
+      for (std::uint32_t a = 0; a < live.size(); ++a)
+        table.untold(a).for_each([&](std::uint32_t b) {
+          if (b > a) table.held(a).has(b) ? begun(*live[a], *live[b]) : ended(*live[a], *live[b]);
+        });
+    });
+  }
 
   /// Whether this one is held with others.
   bool hold_any(const Proxy& proxy) const {
@@ -80,7 +90,8 @@ class FewVerdicts {
   }
 
   /// After a search that has seen all changes: `pairs` are those that are held, and `moved` boxes were searched for.
-  void learn(const Proxies& live, PairStore& pairs, std::size_t moved);
+  /// `may_answer` is false if questions would be in vain as things are.
+  void learn(const Proxies& live, PairStore& pairs, std::size_t moved, bool may_answer);
 
   /// `still`: nothing begins or ends, though boxes have moved.
   enum class Answer { nothing, still, pairs, unknown };
@@ -92,6 +103,7 @@ class FewVerdicts {
   Answer ask(const Proxies& live, bool by_masks, std::vector<btBroadphasePair>& begun, Visit&& visit) {
     if (!are_known_) return Answer::unknown;
     const Answer answer = with_table([&](auto& table) { return ask_of(table, live, by_masks, begun, visit); });
+    note_answer(answer);
     if (answer == Answer::still && live.size() >= least_in_rooms && ++batches_held_ == patience_) let_rooms_try();
     return answer;
   }
@@ -102,16 +114,13 @@ class FewVerdicts {
     return with_table([&](const auto& table) { return table.changes(a, b); });
   }
 
-  /// Gives back what is not in use.
-  void shrink_to_fit() noexcept;
+  /// Gives memory back. Nothing is known then.
+  void give_back() noexcept;
 
   /// For pairs that are settled.
   void validate(const Proxies& live, PairStore& pairs, const BasicWorld<btScalar>& world, bool by_masks) const;
 
  private:
-  std::size_t room() const {
-    return with_table([](const auto& table) { return std::size_t{table.most}; });
-  }
   static std::uint32_t position_of(const btBroadphaseProxy* proxy) {
     return static_cast<const Proxy*>(proxy)->position;
   }
@@ -130,11 +139,20 @@ class FewVerdicts {
   Answer compare(Table& table, const Proxies& live, bool by_masks);
   template <class Table>
   void apply(Table& table, const Proxies& live, std::vector<btBroadphasePair>& begun);
-  bool is_worth_learning(std::size_t size, std::size_t moved);
-  bool make_room_for(std::size_t size) noexcept;
+  std::uint32_t room_for(std::size_t size) const;
+  bool is_worth_learning(std::size_t size, std::size_t moved, bool may_answer);
+  bool make_room(std::uint32_t room) noexcept;
   void note_many() noexcept {
+    if (are_known_) outgrown_ = room_;
     forget();
     searches_left_ = least_searches;
+  }
+  /// Of more than very few, verdicts that say nothing are learned less and less often.
+  void note_answer(Answer answer) noexcept {
+    if (answer == Answer::still || answer == Answer::pairs) searches_in_vain_ = 1;
+    if (answer != Answer::unknown || room_ == VeryFew::most) return;
+    searches_left_ = searches_in_vain_;
+    searches_in_vain_ = searches_in_vain_ < most_patience ? 2 * searches_in_vain_ : searches_in_vain_;
   }
   void let_rooms_try() noexcept {
     forget();
@@ -151,14 +169,16 @@ class FewVerdicts {
   static constexpr unsigned least_searches = 12;
   static constexpr unsigned least_patience = 16, most_patience = 1024;
 
-  bool are_known_ = true;  // at first there are none
-  bool are_very_few_ = true;
+  bool are_known_ = true;               // at first there are none
+  std::uint32_t room_ = VeryFew::most;  // of the table in use
+  std::uint32_t outgrown_ = 0;          // a table with so much room, of late
   VeryFew very_few_;
-  std::unique_ptr<Some> some_;  // unless they are very few, this or the next
+  std::unique_ptr<Some> some_;
   std::unique_ptr<Many> many_;
   bool has_any_ended_ = false;
   unsigned batches_held_ = 0, patience_ = least_patience;  // in which all were still, since rooms were last let try
   unsigned searches_left_ = 0;                             // before this may take part
+  unsigned searches_in_vain_ = 1;                          // as those, after an answer that was none
   unsigned calm_ = 0;                                      // searches for few boxes, in a row
 };
 

@@ -91,6 +91,12 @@ class VerdictTable {
 
   const Set& held(std::uint32_t position) const { return held_[position]; }
   const Set& in_world(std::uint32_t position) const { return in_world_[position]; }
+  Set untold(std::uint32_t position) const {
+    Set set;
+    for (std::uint32_t w = 0; w < Set::count; ++w)
+      set.words[w] = held_[position].words[w] ^ in_world_[position].words[w];
+    return set;
+  }
   /// Both, of two.
   void hold(std::uint32_t a, std::uint32_t b) {
     for (auto* rows : {held_, in_world_}) {

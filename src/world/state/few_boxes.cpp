@@ -162,19 +162,24 @@ class PlainRay {
 
   /// As `missed`.
   HWY_INLINE std::uint64_t misses(std::size_t at, S* enters) const {
+    const auto is_inert = hn::Gt(hn::Load(D(), first_lo_ + at), hn::Load(D(), first_hi_ + at));
     auto enter = hn::Zero(DS()), leave = length_;
     for (int axis = 0; axis < 3; ++axis) {
-      enter = hn::Max(crossing(near_[axis] + at, near_reach_[axis], axis), enter);
-      leave = hn::Min(crossing(far_[axis] + at, far_reach_[axis], axis), leave);
+      auto near = number_of<S>(D(), near_[axis] + at), far = number_of<S>(D(), far_[axis] + at);
+      if (axis == 0) {  // where inert lanes have no numbers, which would raise flags
+        const auto inert = hn::VecFromMask(DS(), hn::RebindMask(DS(), is_inert));
+        near = hn::AndNot(inert, near);
+        far = hn::AndNot(inert, far);
+      }
+      enter = hn::Max(crossing(near, near_reach_[axis], axis), enter);
+      leave = hn::Min(crossing(far, far_reach_[axis], axis), leave);
     }
     hn::StoreU(enter, DS(), enters + at);
-    const auto is_inert = hn::Gt(hn::Load(D(), first_lo_ + at), hn::Load(D(), first_hi_ + at));
     return bits_of(DS(), hn::Or(hn::RebindMask(DS(), is_inert), hn::Gt(enter, leave)));
   }
 
  private:
-  HWY_INLINE hn::VFromD<DS> crossing(const Key* bounds, S reach, int axis) const {
-    auto bound = number_of<S>(D(), bounds);
+  HWY_INLINE hn::VFromD<DS> crossing(hn::VFromD<DS> bound, S reach, int axis) const {
     if constexpr (has_reach) bound = hn::Sub(bound, hn::Set(DS(), reach));
     return hn::Mul(hn::Sub(bound, origin_[axis]), inverse_[axis]);
   }
