@@ -148,7 +148,7 @@ struct Thresholds {
   std::size_t few_proxies = 384;
   /// While rows or a batch of few cost less than so many boxes in a batch, nothing else is looked at.
   std::size_t cheap_of_few = 96;
-  /// So few are scanned by every query but a ray that `is_long` on an axis. With more an index is brought up to date by
+  /// So few are scanned by every ray but one that `is_long` on an axis. With more an index is brought up to date by
   /// the next one after so many.
   std::size_t always_scanned = 192;
   std::uint32_t scans_before_index = 64;

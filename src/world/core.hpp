@@ -55,7 +55,7 @@ class WorldParts {
   ProxyPair named(PairKey key) const { return {proxies_.id(first_of(key)), proxies_.id(second_of(key))}; }
   bool is_dirty(PairKey key) const { return proxies_.is_dirty(first_of(key)) || proxies_.is_dirty(second_of(key)); }
   ProxyId id_of_slot(std::uint32_t slot) const { return proxies_.id(proxies_.rank_of_slot(slot)); }
-  /// True for a query that is compared with few boxes one by one instead of asking the index.
+  /// True for a ray that is compared with few boxes one by one instead of asking the index. Boxes always are.
   bool scans_few() const {
     return proxies_.few().is_kept() &&
            (proxies_.ranks() <= thresholds.always_scanned || !index_.is_worth_asking(thresholds.scans_before_index));

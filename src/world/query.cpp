@@ -20,9 +20,10 @@ void BasicWorld<S>::query_box(const Box& box, ProxyVisitor visit) const {
   const InUse::Read read(impl_->in_use_);
   const BoxKeys<S> keys(box);
   if (!keys.are_valid()) return;
-  if (impl_->scans_few()) {
+  const FewBoxes<S>& few = impl_->proxies_.few();
+  if (few.is_kept()) {
     std::uint64_t bits[FewBoxes<S>::most_words];
-    const std::size_t words = impl_->proxies_.few().find_touching(keys, impl_->proxies_.ranks(), bits);
+    const std::size_t words = few.find_touching(keys, impl_->proxies_.ranks(), bits);
     for_each_index(bits, words, [&](std::uint32_t rank) { return visit(impl_->proxies_.id(rank)); });
     return;
   }

@@ -238,6 +238,30 @@ TEST_P(FewBoxesOn, FollowChanges) {
 
 INSTANTIATE_TEST_SUITE_P(Targets, FewBoxesOn, testing::ValuesIn(simd_targets()), simd_target_name);
 
+/// Where some come and go, their places are given up before these make proxies many.
+TEST(FewProxiesTable, PlacesOfThoseThatAreGoneDoNotMakeProxiesMany) {
+  detail::ProxyTable<float> table;
+  const auto add = [&] {
+    if (table.needs_compaction() || table.crowds_few(1)) {
+      table.reserve_to_compact();
+      table.compact([](std::uint32_t) { return false; });
+    }
+    table.reserve(1);
+    return table.create({{0, 0, 0}, {1, 1, 1}}, {}, 0);
+  };
+  const std::size_t lasting = most - most / 8 - 1;
+  for (std::size_t i = 0; i < lasting; ++i) add();
+  for (std::size_t i = 0; i < 3 * most; ++i) {
+    const ProxyId id = add();
+    table.settle();
+    table.destroy(table.rank(id));
+    ASSERT_TRUE(table.few().is_kept()) << i;
+  }
+  EXPECT_EQ(table.live(), lasting);
+  while (table.live() <= most) add();
+  EXPECT_FALSE(table.few().is_kept());
+}
+
 template <class S>
 class FewProxies : public testing::Test {
  protected:
