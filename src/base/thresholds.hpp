@@ -148,8 +148,8 @@ struct Thresholds {
   std::size_t few_proxies = 384;
   /// While rows or a batch of few cost less than so many boxes in a batch, nothing else is looked at.
   std::size_t cheap_of_few = 96;
-  /// So few are scanned by every ray but one that `is_long` on an axis. With more an index is brought up to date by
-  /// the next one after so many.
+  /// So few are scanned by every ray but one that `is_long` on an axis. With more an index is brought up to date by the
+  /// next one after so many.
   std::size_t always_scanned = 192;
   std::uint32_t scans_before_index = 64;
   /// Rooms that hold for so many updates have paid.

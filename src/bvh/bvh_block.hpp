@@ -9,6 +9,7 @@
 
 #include <boxstream/aabb.hpp>
 #include <boxstream/span.hpp>
+
 #include "bvh/ray_slabs.hpp"
 
 namespace boxstream::detail {

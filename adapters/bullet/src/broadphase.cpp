@@ -126,9 +126,8 @@ bool Broadphase::Impl::may_end_by_few(btDispatcher* dispatcher) {
   return few_verdicts.are_known() && own->holds_worlds_pairs() && own->store().size() <= most_pairs;
 }
 
-/// The pairs that verdicts know of a proxy that is about to be destroyed.
+/// The pairs that the World holds, as verdicts know, of a proxy that is about to be destroyed.
 void Broadphase::Impl::release_in_world(const Proxy& proxy) {
-  if (!proxy.id || world.pair_count() == 0) return;
   or_fatal([&] {
     few_verdicts.for_each_in_world(live, proxy, [&](const Proxy& other) { world.release(proxy.id, other.id); });
   });

@@ -45,8 +45,9 @@ bool look_along(const btVector3& from, const btVector3& inverse, btScalar length
   found.look([&](const Proxy& proxy) {
     if (proxy.margin == 0)
       return ray.meets({proxy.m_aabbMin, proxy.m_aabbMax}) && is_valid(box_of(proxy.m_aabbMin, proxy.m_aabbMax));
-    const auto [min, max] = box_in_world(proxy);
-    return ray.meets({{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}) && is_valid(box_in_world(proxy));
+    const auto box = box_in_world(proxy);
+    const btVector3 min(box.min[0], box.min[1], box.min[2]), max(box.max[0], box.max[1], box.max[2]);
+    return ray.meets({min, max}) && is_valid(box);
   });
   return true;
 }

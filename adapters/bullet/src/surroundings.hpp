@@ -12,6 +12,7 @@
 #include <boxstream/detail/float_environment.hpp>
 #include <boxstream/world.hpp>
 
+#include "lanes.hpp"
 #include "proxy.hpp"
 
 namespace boxstream::bullet {
@@ -75,8 +76,6 @@ class Surroundings {
 
   /// A box that is compared with others by a few instructions.
   struct Bounds {
-    typedef btScalar Four __attribute__((vector_size(4 * sizeof(btScalar))));
-
     Bounds() = default;
     explicit Bounds(const Box& box)
         : low{box.min[0], box.min[1], box.min[2], 0}, high{box.max[0], box.max[1], box.max[2], 0} {}
@@ -89,7 +88,7 @@ class Surroundings {
 
     Box box() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
 
-    Four low, high;
+    Lanes low, high;
   };
 
   struct Row {
@@ -117,13 +116,7 @@ class Surroundings {
   }
   static Bounds bounds_of(const Box& box) { return is_valid(box) ? Bounds(box) : Bounds::nowhere(); }
 
-  static bool touch(const Bounds& a, const Bounds& b) {
-    using Halves __attribute__((vector_size(sizeof(Bounds::Four)))) = long long;
-    const Halves in = Halves(a.low <= b.high) & Halves(b.low <= a.high);
-    long long all = -1;
-    for (std::size_t i = 0; i < sizeof(Halves) / sizeof(long long); ++i) all &= in[i];
-    return all == -1;
-  }
+  static bool touch(const Bounds& a, const Bounds& b) { return !has_any(~((a.low <= b.high) & (b.low <= a.high))); }
   /// Places of neighbours, to `found_`; returns how many.
   std::size_t find_touching(const Row& row, const Bounds& box, const Box& settled);
   void note_strayed(std::uint32_t row) {

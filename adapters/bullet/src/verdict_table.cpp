@@ -42,6 +42,10 @@ typename VerdictTable<most_proxies>::Set VerdictTable<most_proxies>::touching(co
   return set;
 }
 
+// As <boxstream/bullet.hpp> says.
+static_assert(sizeof(VerdictTable<128>) < (sizeof(btScalar) == 4 ? 9500 : 13000));
+static_assert(sizeof(VerdictTable<320>) < (sizeof(btScalar) == 4 ? 46500 : 54000));
+
 template class VerdictTable<32>;
 template class VerdictTable<128>;
 template class VerdictTable<320>;

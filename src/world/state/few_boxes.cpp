@@ -141,13 +141,13 @@ HWY_INLINE auto swept(const RaySlabs<S>& ray) {
 
 /// A ray that `is_plain`, as vectors: no axis is special, and no time a NaN.
 template <class S, bool has_reach>
-class PlainRay {
+class PlainSlabs {
   using Key = decltype(order_key(S()));
   using D = Narrow<Key>;
   using DS = hn::Rebind<S, D>;
 
  public:
-  PlainRay(const FewColumns<Key>& columns, const RaySlabs<S>& ray)
+  PlainSlabs(const FewColumns<Key>& columns, const RaySlabs<S>& ray)
       : first_lo_(columns.lo[0]), first_hi_(columns.hi[0]), length_(hn::Set(DS(), ray.length)) {
     for (int axis = 0; axis < 3; ++axis) {
       const bool backwards = ray.inverse[axis] < 0;
@@ -250,9 +250,9 @@ HWY_INLINE void hits(const FewColumns<decltype(order_key(S()))>& columns, const 
   if (!ray.is_plain)
     leave_hits<Key>(size, bits, [&](std::size_t at) { return missed(columns, ray, at, enters); });
   else if (is_box)
-    leave_plain_hits(PlainRay<S, true>(columns, ray));
+    leave_plain_hits(PlainSlabs<S, true>(columns, ray));
   else
-    leave_plain_hits(PlainRay<S, false>(columns, ray));
+    leave_plain_hits(PlainSlabs<S, false>(columns, ray));
 }
 
 #define BOXSTREAM_FEW_BOXES(S, K)                                                                                \
